@@ -1,0 +1,14 @@
+# Finds Debian's LIGGGHTS library (package libliggghts-dev). Target: Liggghts::Liggghts.
+find_path(Liggghts_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
+find_library(Liggghts_LIBRARY liggghts)
+find_program(Liggghts_EXECUTABLE liggghts)
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Liggghts REQUIRED_VARS Liggghts_LIBRARY Liggghts_INCLUDE_DIR)
+if(Liggghts_FOUND AND NOT TARGET Liggghts::Liggghts)
+  add_library(Liggghts::Liggghts UNKNOWN IMPORTED)
+  set_target_properties(Liggghts::Liggghts PROPERTIES
+    IMPORTED_LOCATION ${Liggghts_LIBRARY}
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${Liggghts_INCLUDE_DIR}
+    INTERFACE_LINK_LIBRARIES MPI::MPI_CXX)
+endif()
+mark_as_advanced(Liggghts_INCLUDE_DIR Liggghts_LIBRARY Liggghts_EXECUTABLE)

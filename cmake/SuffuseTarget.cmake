@@ -1,0 +1,23 @@
+# suffuse_library(NAME common SOURCES ... [PUBLIC_LINKS ...] [PRIVATE_LINKS ...])
+# A static library `suffuse_NAME` with the alias `suffuse::NAME`, our warnings and the include folder `include/`.
+
+function(suffuse_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  if(SUFFUSE_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(SUFFUSE_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+function(suffuse_library)
+  cmake_parse_arguments(ARG "" "NAME" "SOURCES;PUBLIC_LINKS;PRIVATE_LINKS" ${ARGN})
+  add_library(suffuse_${ARG_NAME} STATIC ${ARG_SOURCES})
+  add_library(suffuse::${ARG_NAME} ALIAS suffuse_${ARG_NAME})
+  target_include_directories(suffuse_${ARG_NAME} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  target_link_libraries(suffuse_${ARG_NAME} PUBLIC ${ARG_PUBLIC_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
+  suffuse_compile_options(suffuse_${ARG_NAME})
+endfunction()

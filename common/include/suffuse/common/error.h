@@ -1,0 +1,31 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace suffuse {
+
+/// A mistake in what a person wrote (script, option, file), never in the program.
+///
+/// Thrown on every rank alike, before anything has been changed. The outermost level prints one line on rank 0
+/// and every rank exits with code 1.
+class UserError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The parts of a message about wrong input, in the order in which they are read:
+/// `who: what = value, must <rule>; <remedy>`.
+struct InputProblem {
+  std::string who;     ///< command or style, e.g. "fix stress/servo"
+  std::string what;    ///< the word that is wrong, e.g. "target"
+  std::string value;   ///< what was given, e.g. "-5"
+  std::string rule;    ///< what it must satisfy, e.g. "be > 0"
+  std::string remedy;  ///< how to mend it; may be empty
+};
+
+/// Formats an InputProblem as one line and throws it as UserError.
+[[noreturn]] void throw_user_error(const InputProblem& problem);
+
+}  // namespace suffuse
