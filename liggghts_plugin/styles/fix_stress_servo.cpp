@@ -154,9 +154,11 @@ void FixStressServo::read_option(suffuse::ArgumentReader& reader) {
 }
 
 void FixStressServo::read_stop(suffuse::ArgumentReader& reader) {
-  const std::string condition = reader.word("stop condition (static, axial_strain or cycles)");
+  const std::string condition = reader.word("stop condition (target, static, axial_strain or cycles)");
   const bool shears = settings_.path != servo::Path::kIsotropic;
-  if (condition == "static") {
+  if (condition == "target") {
+    settings_.stop = servo::Stop::kTarget;
+  } else if (condition == "static") {
     settings_.stop = servo::Stop::kStatic;
     if (shears)
       throw_user_error({reader.who(), "until", "static", "go with isotropic",
@@ -175,7 +177,7 @@ void FixStressServo::read_stop(suffuse::ArgumentReader& reader) {
     if (settings_.path != servo::Path::kCyclic)
       throw_user_error({reader.who(), "until", condition, "go with cyclic", ""});
   } else {
-    throw_user_error({reader.who(), "until", condition, "be static, axial_strain or cycles", ""});
+    throw_user_error({reader.who(), "until", condition, "be target, static, axial_strain or cycles", ""});
   }
 }
 

@@ -1,6 +1,8 @@
 #ifdef FIX_CLASS
 
-FixStyle(stress / servo, FixStressServo)
+// clang-format off
+FixStyle(stress/servo, FixStressServo)
+// clang-format on
 
 #else
 
