@@ -69,7 +69,9 @@ FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
   restart_pbc = 1;
 }
 
-FixStressServo::~FixStressServo() = default;
+FixStressServo::~FixStressServo() {
+  if (modify->find_compute(pressure_id_.data()) >= 0) modify->delete_compute(pressure_id_.data());
+}
 
 void FixStressServo::read_path(suffuse::ArgumentReader& reader) {
   constexpr const char* kPaths = "isotropic, constant_p, triaxial, cyclic, constant_volume";
@@ -187,10 +189,6 @@ void FixStressServo::post_create() {
   char* words[] = {pressure_id_.data(), everyone.data(), style_name.data(), temperature.data(), what.data()};
   modify->add_compute(5, words);
   sampler_ = &FixContactSampler::of(lmp);
-}
-
-void FixStressServo::pre_delete(bool unfixflag) {
-  if (unfixflag) modify->delete_compute(pressure_id_.data());
 }
 
 int FixStressServo::setmask() {

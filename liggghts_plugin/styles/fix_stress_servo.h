@@ -28,7 +28,6 @@ class FixStressServo : public Fix {
   ~FixStressServo() override;
 
   void post_create() override;
-  void pre_delete(bool unfixflag) override;
   int setmask() override;
   void init() override;
   void setup(int) override;
