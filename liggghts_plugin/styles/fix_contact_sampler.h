@@ -1,6 +1,6 @@
 #ifdef FIX_CLASS
 
-FixStyle(contact / sampler, FixContactSampler)
+FixStyle(contact/sampler, FixContactSampler)
 
 #else
 

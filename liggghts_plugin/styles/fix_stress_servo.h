@@ -1,6 +1,6 @@
 #ifdef FIX_CLASS
 
-FixStyle(stress / servo, FixStressServo)
+FixStyle(stress/servo, FixStressServo)
 
 #else
 
