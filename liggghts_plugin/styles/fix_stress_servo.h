@@ -10,7 +10,7 @@ FixStyle(stress/servo, FixStressServo)
 #include <string>
 #include <vector>
 
-#include "../kernels/stress_servo.h"
+#include "kernels/stress_servo.h"
 #include "fix.h"
 #include "style_support.h"
 
