@@ -6,6 +6,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,23 @@ bool answered_without_a_script(int argc, char** argv) {
   return false;
 }
 
+const char* script_name(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], "-in") == 0 || std::strcmp(argv[i], "-i") == 0) return argv[i + 1];
+  return nullptr;
+}
+
+/// Lets a script find files beside it: ${script_folder} is the folder of -in FILE (LIGGGHTS takes relative names from
+/// the folder of the run). A -var of the same name on the command line is read first and wins.
+void add_script_folder(std::vector<char*>& arguments, const char* script) {
+  static std::string folder;
+  static char option[] = "-var", name[] = "script_folder";
+  if (script == nullptr) return;
+  folder = std::filesystem::path(script).parent_path().string();
+  if (folder.empty()) folder = ".";
+  arguments.insert(arguments.end(), {option, name, folder.data()});
+}
+
 /// LIGGGHTS 3.8 writes to a null stream in some styles after `-screen none` and crashes; an empty device is
 /// as silent.
 std::vector<char*> with_a_real_screen(int argc, char** argv) {
@@ -91,7 +109,8 @@ int run_script(int argc, char** argv, int rank) {
   try {
     require_a_readable_script(argc, argv);
     std::vector<char*> arguments = with_a_real_screen(argc, argv);
-    lmp = new LAMMPS_NS::LAMMPS(argc, arguments.data(), MPI_COMM_WORLD);
+    add_script_folder(arguments, script_name(argc, argv));
+    lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
     suffuse::register_styles(lmp);
     lmp->input->file();
     delete lmp;

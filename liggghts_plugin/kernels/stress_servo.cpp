@@ -106,6 +106,8 @@ bool stop_met(const Settings& s, const Measurement& m, const State& state) {
   switch (s.stop) {
     case Stop::kNone:
       return false;
+    case Stop::kTarget:
+      return true;  // holding has begun
     case Stop::kStatic:
       return m.is_static;
     case Stop::kAxialStrain:

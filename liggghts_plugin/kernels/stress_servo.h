@@ -18,7 +18,7 @@ enum class Path {
 
 enum class Phase { kApproaching = 0, kHolding = 1, kDone = 2 };
 
-enum class Stop { kNone, kStatic, kAxialStrain, kCycles };
+enum class Stop { kNone, kTarget, kStatic, kAxialStrain, kCycles };
 
 struct Settings {
   Path path = Path::kIsotropic;

@@ -1,6 +1,8 @@
 #ifdef COMMAND_CLASS
 
+// clang-format off
 CommandStyle(dem_timestep, CommandDemTimestep)
+// clang-format on
 
 #else
 

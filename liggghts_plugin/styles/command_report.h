@@ -1,6 +1,8 @@
 #ifdef COMMAND_CLASS
 
+// clang-format off
 CommandStyle(report, CommandReport)
+// clang-format on
 
 #else
 

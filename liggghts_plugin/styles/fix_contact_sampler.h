@@ -1,6 +1,8 @@
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(contact/sampler, FixContactSampler)
+// clang-format on
 
 #else
 

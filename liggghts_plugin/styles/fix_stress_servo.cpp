@@ -69,7 +69,9 @@ FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
   restart_pbc = 1;
 }
 
-FixStressServo::~FixStressServo() = default;
+FixStressServo::~FixStressServo() {
+  if (modify->find_compute(pressure_id_.data()) >= 0) modify->delete_compute(pressure_id_.data());
+}
 
 void FixStressServo::read_path(suffuse::ArgumentReader& reader) {
   constexpr const char* kPaths = "isotropic, constant_p, triaxial, cyclic, constant_volume";
@@ -154,9 +156,11 @@ void FixStressServo::read_option(suffuse::ArgumentReader& reader) {
 }
 
 void FixStressServo::read_stop(suffuse::ArgumentReader& reader) {
-  const std::string condition = reader.word("stop condition (static, axial_strain or cycles)");
+  const std::string condition = reader.word("stop condition (target, static, axial_strain or cycles)");
   const bool shears = settings_.path != servo::Path::kIsotropic;
-  if (condition == "static") {
+  if (condition == "target") {
+    settings_.stop = servo::Stop::kTarget;
+  } else if (condition == "static") {
     settings_.stop = servo::Stop::kStatic;
     if (shears)
       throw_user_error({reader.who(), "until", "static", "go with isotropic",
@@ -175,7 +179,7 @@ void FixStressServo::read_stop(suffuse::ArgumentReader& reader) {
     if (settings_.path != servo::Path::kCyclic)
       throw_user_error({reader.who(), "until", condition, "go with cyclic", ""});
   } else {
-    throw_user_error({reader.who(), "until", condition, "be static, axial_strain or cycles", ""});
+    throw_user_error({reader.who(), "until", condition, "be target, static, axial_strain or cycles", ""});
   }
 }
 
@@ -185,10 +189,6 @@ void FixStressServo::post_create() {
   char* words[] = {pressure_id_.data(), everyone.data(), style_name.data(), temperature.data(), what.data()};
   modify->add_compute(5, words);
   sampler_ = &FixContactSampler::of(lmp);
-}
-
-void FixStressServo::pre_delete(bool unfixflag) {
-  if (unfixflag) modify->delete_compute(pressure_id_.data());
 }
 
 int FixStressServo::setmask() {

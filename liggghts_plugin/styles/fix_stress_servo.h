@@ -1,6 +1,8 @@
 #ifdef FIX_CLASS
 
+// clang-format off
 FixStyle(stress/servo, FixStressServo)
+// clang-format on
 
 #else
 
@@ -10,8 +12,8 @@ FixStyle(stress/servo, FixStressServo)
 #include <string>
 #include <vector>
 
-#include "kernels/stress_servo.h"
 #include "fix.h"
+#include "kernels/stress_servo.h"
 #include "style_support.h"
 
 namespace LAMMPS_NS {
@@ -26,7 +28,6 @@ class FixStressServo : public Fix {
   ~FixStressServo() override;
 
   void post_create() override;
-  void pre_delete(bool unfixflag) override;
   int setmask() override;
   void init() override;
   void setup(int) override;
