@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../kernels/expected_values.h"
+#include "kernels/expected_values.h"
 #include "comm.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"

@@ -12,8 +12,8 @@ FixStyle(stress/servo, FixStressServo)
 #include <string>
 #include <vector>
 
-#include "../kernels/stress_servo.h"
 #include "fix.h"
+#include "kernels/stress_servo.h"
 #include "style_support.h"
 
 namespace LAMMPS_NS {

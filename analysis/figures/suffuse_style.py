@@ -1,0 +1,54 @@
+"""The look that all figures share: sizes, type, colours, and how a figure is written to its file."""
+import pathlib
+import sys
+
+try:
+    import matplotlib
+except ImportError:
+    sys.exit(f"{pathlib.Path(sys.argv[0]).name}: this Python ({sys.executable}) has no matplotlib; "
+             "install it (apt-get install python3-matplotlib) or use Debian's Python, /usr/bin/python3")
+
+matplotlib.use("Agg")  # figures go to files; no display is needed
+import matplotlib.pyplot as plt  # noqa: E402
+
+# Okabe and Ito's colours, distinguishable with the common kinds of colour blindness and in grey print.
+COLOURS = {"blue": "#0072b2", "orange": "#e69f00", "green": "#009e73", "vermilion": "#d55e00",
+           "purple": "#cc79a7", "sky": "#56b4e9"}
+REFERENCE = {"color": "#606060", "linestyle": (0, (5, 3)), "linewidth": 1.0}  # targets, limits, values from papers
+
+plt.rcParams.update({
+    "figure.dpi": 150,
+    "figure.constrained_layout.use": True,
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.grid": True,
+    "axes.prop_cycle": plt.cycler(color=list(COLOURS.values())),
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.4,
+    "legend.frameon": False,
+})
+
+COLUMN_WIDTH = 5.2  # inches; a figure this wide reads well in a page of text
+
+
+def stacked_panels(count, panel_height=1.55):
+    """A figure of `count` panels on one abscissa, and the list of its axes."""
+    figure, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=(COLUMN_WIDTH, panel_height * count + 0.4))
+    return figure, list(axes[:, 0])
+
+
+def reference_line(axes, value, label):
+    """A dashed level across the panel with its name on it, above the line at the right end."""
+    axes.axhline(value, **REFERENCE)
+    axes.annotate(label, xy=(1, value), xycoords=("axes fraction", "data"), xytext=(-2, 2), textcoords="offset points",
+                  ha="right", va="bottom", fontsize=8, color=REFERENCE["color"])
+
+
+def save(figure, path):
+    """Writes the figure; the format is that of the file's ending."""
+    pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path)
+    plt.close(figure)

@@ -1,0 +1,43 @@
+"""Reads the time series that runs leave: CSV, one header row of names with units, SI, lines that start with # left out."""
+import csv
+import math
+import sys
+
+
+class TimeSeries:
+    """Columns by name, each a list of numbers as long as the series."""
+
+    def __init__(self, path):
+        self.path = path
+        try:
+            with open(path, newline="", encoding="utf-8") as file:
+                rows = [row for row in csv.reader(line for line in file if not line.startswith("#")) if row]
+        except OSError as problem:
+            sys.exit(f"{path}: {problem.strerror}; give the CSV file that the run wrote")
+        if len(rows) < 2:
+            sys.exit(f"{path}: has no rows under its header; has the run got that far?")
+        header = [name.strip() for name in rows[0]]
+        self.columns = {name: [] for name in header}
+        for number, row in enumerate(rows[1:], start=2):
+            if len(row) != len(header):
+                sys.exit(f"{path}: row {number} has {len(row)} values, the header {len(header)} names; is the run still writing?")
+            for name, text in zip(header, row):
+                try:
+                    value = float(text)
+                except ValueError:
+                    sys.exit(f"{path}: row {number}, {name}: '{text}' is no number")
+                self.columns[name].append(value)
+
+    def require(self, *names):
+        missing = [name for name in names if name not in self.columns]
+        if missing:
+            sys.exit(f"{self.path}: has no column {', '.join(missing)}; it has {', '.join(self.columns)}")
+
+    def __contains__(self, name):
+        return name in self.columns
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def last(self, name):
+        return self.columns[name][-1] if name in self.columns else math.nan
