@@ -460,7 +460,8 @@ std::string FixStressServo::signature() const {
 
 std::vector<double> FixStressServo::pack() const {
   std::vector<double> values;
-  for (const Vec3& v : {state_.rate, state_.bias, state_.reference_lengths, stress_, shear_})
+  for (const Vec3& v :
+       {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
   for (const double value :
@@ -473,7 +474,8 @@ std::vector<double> FixStressServo::pack() const {
 
 /// The inverse of pack().
 void FixStressServo::unpack(const double* values) {
-  for (Vec3* v : {&state_.rate, &state_.bias, &state_.reference_lengths, &stress_, &shear_}) {
+  for (Vec3* v :
+       {&state_.rate, &state_.bias, &state_.last_stress, &state_.reference_lengths, &stress_, &shear_}) {
     *v = Vec3(values[0], values[1], values[2]);
     values += 3;
   }
