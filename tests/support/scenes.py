@@ -56,9 +56,9 @@ def loose_sample(grains=400, friction=0.0, boundary="p p p"):
         length=length, grains=grains, material=MATERIAL.format(friction=friction))
 
 
-def read_sample(restart, friction=0.3):
-    """Script text that takes up a sample from a restart file."""
-    return HEADER.format(boundary="p p p") + f"read_restart {restart}\n" + MATERIAL.format(friction=friction) + \
+def read_sample(restart, before="", friction=0.3):
+    """Script text that takes up a sample from a restart file; `before` stands before the box is read."""
+    return HEADER.format(boundary="p p p") + before + f"read_restart {restart}\n" + MATERIAL.format(friction=friction) + \
         "timestep 8e-7\nthermo_modify lost error norm no\n"
 
 
