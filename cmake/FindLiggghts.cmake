@@ -8,7 +8,7 @@ if(Liggghts_FOUND AND NOT TARGET Liggghts::Liggghts)
   add_library(Liggghts::Liggghts UNKNOWN IMPORTED)
   set_target_properties(Liggghts::Liggghts PROPERTIES
     IMPORTED_LOCATION ${Liggghts_LIBRARY}
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${Liggghts_INCLUDE_DIR}
+    INTERFACE_INCLUDE_DIRECTORIES ${Liggghts_INCLUDE_DIR}
     INTERFACE_LINK_LIBRARIES MPI::MPI_CXX)
 endif()
 mark_as_advanced(Liggghts_INCLUDE_DIR Liggghts_LIBRARY Liggghts_EXECUTABLE)

@@ -12,6 +12,8 @@ double stiffness_length_sum(const Packing& packing, std::span<const double> norm
   return sum;
 }
 
-double voigt_bulk_modulus(double sum, double volume) { return sum / (9 * volume); }
+double voigt_bulk_modulus(double sum, double volume) {
+  return sum / (9 * volume);
+}
 
 }  // namespace suffuse::micromechanics

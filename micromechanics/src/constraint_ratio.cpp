@@ -6,7 +6,8 @@ namespace suffuse::micromechanics {
 
 ConstraintRatio constraint_ratio(const Coordination& coordination, double sliding_share) {
   const double constraints = (3 - 2 * sliding_share) / 12;
-  return {coordination.mean * constraints, coordination.geometric * constraints, coordination.mechanical * constraints};
+  return {coordination.mean * constraints, coordination.geometric * constraints,
+          coordination.mechanical * constraints};
 }
 
 HydromechanicalState hydromechanical_state(double constraint_ratio, double tolerance) {
@@ -16,9 +17,12 @@ HydromechanicalState hydromechanical_state(double constraint_ratio, double toler
 
 const char* to_string(HydromechanicalState state) {
   switch (state) {
-    case HydromechanicalState::stable: return "stable";
-    case HydromechanicalState::transitional: return "transitional";
-    case HydromechanicalState::fluid_like: break;
+    case HydromechanicalState::stable:
+      return "stable";
+    case HydromechanicalState::transitional:
+      return "transitional";
+    case HydromechanicalState::fluid_like:
+      break;
   }
   return "fluid-like";
 }

@@ -5,11 +5,15 @@
 namespace suffuse::micromechanics {
 namespace {
 
-double ratio(double numerator, double denominator) { return denominator > 0 ? numerator / denominator : 0; }
+double ratio(double numerator, double denominator) {
+  return denominator > 0 ? numerator / denominator : 0;
+}
 
 }  // namespace
 
-double sphere_volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
+double sphere_volume(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
 
 std::vector<int> contacts_per_grain(const Packing& packing) {
   std::vector<int> contacts(packing.grains.size(), 0);

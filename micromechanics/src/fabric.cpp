@@ -16,8 +16,8 @@ constexpr std::array<std::array<int, 2>, 3> kAxes{{{0, 1}, {0, 2}, {1, 2}}};
 
 void add_angle(OrientationHistogram& histogram, double along_first, double along_second) {
   if (along_first == 0 && along_second == 0) return;
-  // The sign of a normal has no meaning: take the half turn [0, π) and add its opposite bin, so that the histogram
-  // does not depend on which grain was listed first.
+  // The sign of a normal has no meaning: take the half turn [0, π) and add its opposite bin, so that the
+  // histogram does not depend on which grain was listed first.
   if (along_second < 0 || (along_second == 0 && along_first < 0)) {
     along_first = -along_first;
     along_second = -along_second;
@@ -53,7 +53,9 @@ double deviatoric_fabric(const Mat3& fabric) {
   return std::sqrt(1.5 * deviator.cwiseProduct(deviator).sum());
 }
 
-double bin_centre(int bin) { return (bin + 0.5) * kTwoPi / kOrientationBins; }
+double bin_centre(int bin) {
+  return (bin + 0.5) * kTwoPi / kOrientationBins;
+}
 
 std::array<double, kOrientationBins> orientation_density(const OrientationHistogram& histogram) {
   std::array<double, kOrientationBins> density{};
@@ -64,10 +66,13 @@ std::array<double, kOrientationBins> orientation_density(const OrientationHistog
   return density;
 }
 
-double RoseFit::density(double angle) const { return (1 + anisotropy * std::cos(2 * (angle - direction))) / kTwoPi; }
+double RoseFit::density(double angle) const {
+  return (1 + anisotropy * std::cos(2 * (angle - direction))) / kTwoPi;
+}
 
 RoseFit fit_rose(const OrientationHistogram& histogram) {
-  // cos 2θ and sin 2θ are orthogonal over equally spaced bins and to the constant: the normal equations are diagonal.
+  // cos 2θ and sin 2θ are orthogonal over equally spaced bins and to the constant: the normal equations are
+  // diagonal.
   const auto density = orientation_density(histogram);
   double cosine = 0, sine = 0;
   for (int bin = 0; bin < kOrientationBins; ++bin) {

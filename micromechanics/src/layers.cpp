@@ -8,7 +8,8 @@
 namespace suffuse::micromechanics {
 namespace {
 
-/// Grain centre moved by whole periods; up to one image on either side of each cut periodic axis can reach the column.
+/// Grain centre moved by whole periods; up to one image on either side of each cut periodic axis can reach
+/// the column.
 std::vector<Vec3> images_near_column(const Grain& grain, const LayerGrid& grid) {
   std::vector<Vec3> images{grain.position};
   for (int axis = 0; axis < 3; ++axis) {
@@ -19,7 +20,8 @@ std::vector<Vec3> images_near_column(const Grain& grain, const LayerGrid& grid) 
       for (const double shift : {-grid.period[axis], grid.period[axis]}) {
         Vec3 moved = images[i];
         moved[axis] += shift;
-        if (moved[axis] + grain.radius > grid.column.low[axis] && moved[axis] - grain.radius < grid.column.high[axis])
+        if (moved[axis] + grain.radius > grid.column.low[axis] &&
+            moved[axis] - grain.radius < grid.column.high[axis])
           images.push_back(moved);
       }
   }
@@ -35,7 +37,9 @@ double grain_share(const Vec3& centre, double radius, const Box& box, GrainShare
 
 }  // namespace
 
-double LayerGrid::layer_volume() const { return (column.high - column.low).prod() / layers; }
+double LayerGrid::layer_volume() const {
+  return (column.high - column.low).prod() / layers;
+}
 
 Box LayerGrid::layer_box(int layer) const {
   Box box = column;
@@ -97,7 +101,8 @@ LayerState layer_state(const LayerSums& sums, double layer_volume) {
 double void_ratio_variance(std::span<const double> void_ratios, double sample_void_ratio) {
   if (void_ratios.size() < 2) return 0;
   double sum = 0;
-  for (const double void_ratio : void_ratios) sum += (void_ratio - sample_void_ratio) * (void_ratio - sample_void_ratio);
+  for (const double void_ratio : void_ratios)
+    sum += (void_ratio - sample_void_ratio) * (void_ratio - sample_void_ratio);
   return sum / static_cast<double>(void_ratios.size() - 1);
 }
 

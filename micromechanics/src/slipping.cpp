@@ -31,7 +31,8 @@ SlidingSums sliding_sums(const Packing& packing, const SlidingRule& rule) {
 
 Sliding sliding(const SlidingSums& sums) {
   if (sums.contacts <= 0) return {};
-  return {sums.sliding / sums.contacts, sums.slipping_index / sums.contacts, sums.mobilised_friction / sums.contacts};
+  return {sums.sliding / sums.contacts, sums.slipping_index / sums.contacts,
+          sums.mobilised_friction / sums.contacts};
 }
 
 }  // namespace suffuse::micromechanics

@@ -15,7 +15,8 @@ constexpr double kPi = std::numbers::pi;
 
 /// Area of the part of a circle at the origin with X ≤ x, for |x| ≤ r.
 double circle_area_below(double radius, double x) {
-  return radius * radius * (kPi / 2 + std::asin(x / radius)) + x * std::sqrt(std::max(0.0, radius * radius - x * x));
+  return radius * radius * (kPi / 2 + std::asin(x / radius)) +
+         x * std::sqrt(std::max(0.0, radius * radius - x * x));
 }
 
 /// Area of the part of a circle at the origin with X ≤ x and Y ≤ y.
@@ -38,8 +39,10 @@ struct Rectangle {
 
 double circle_area_in_rectangle(double radius, const Rectangle& cut) {
   if (radius <= 0) return 0;
-  return circle_area_in_quadrant(radius, cut.x_high, cut.y_high) - circle_area_in_quadrant(radius, cut.x_low, cut.y_high) -
-         circle_area_in_quadrant(radius, cut.x_high, cut.y_low) + circle_area_in_quadrant(radius, cut.x_low, cut.y_low);
+  return circle_area_in_quadrant(radius, cut.x_high, cut.y_high) -
+         circle_area_in_quadrant(radius, cut.x_low, cut.y_high) -
+         circle_area_in_quadrant(radius, cut.x_high, cut.y_low) +
+         circle_area_in_quadrant(radius, cut.x_low, cut.y_low);
 }
 
 struct GaussRule {

@@ -26,7 +26,8 @@ std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm
     const double first_radius = packing.grains[static_cast<std::size_t>(contact.first)].radius;
     const double overlap_length = overlap(contact, first_radius);
     const Mat3 unit = contact.branch / distance * contact.force.transpose();
-    stress[static_cast<std::size_t>(contact.first)] += arm_length(first_radius, overlap_length, distance, arm) * unit;
+    stress[static_cast<std::size_t>(contact.first)] +=
+        arm_length(first_radius, overlap_length, distance, arm) * unit;
     if (contact.second != kNotOwned)
       stress[static_cast<std::size_t>(contact.second)] +=
           arm_length(contact.second_radius, overlap_length, distance, arm) * unit;
@@ -34,7 +35,9 @@ std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm
   return stress;
 }
 
-double mean_stress(const Mat3& stress) { return stress.trace() / 3; }
+double mean_stress(const Mat3& stress) {
+  return stress.trace() / 3;
+}
 
 double axial_deviatoric_stress(const Mat3& stress, int axis) {
   return stress(axis, axis) - (stress.trace() - stress(axis, axis)) / 2;

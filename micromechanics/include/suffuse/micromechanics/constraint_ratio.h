@@ -4,8 +4,8 @@
 
 namespace suffuse::micromechanics {
 
-/// Constraints over degrees of freedom of a packing of spheres without rolling resistance (Cundall & Strack 1983;
-/// thesis eq 6.7 and App. H). All three use the same share of sliding contacts.
+/// Constraints over degrees of freedom of a packing of spheres without rolling resistance (Cundall & Strack
+/// 1983; thesis eq 6.7 and App. H). All three use the same share of sliding contacts.
 struct ConstraintRatio {
   double mean = 0;        ///< R = N_c(3 − 2S_c)/(6N_p) = Z(3 − 2S_c)/12
   double geometric = 0;   ///< with Z_geo

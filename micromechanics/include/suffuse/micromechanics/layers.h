@@ -19,17 +19,18 @@ enum class GrainShare {
 
 /// Equal layers across an axis-aligned column of the sample (thesis §6.3, Fig. 6.1c).
 struct LayerGrid {
-  int axis = 2;                        ///< 0, 1, 2: across the layers
-  int layers = 1;                      ///< > 0
-  bool numbered_from_top = true;       ///< layer 0 at the high end, as in the thesis; else at the low end
-  Box column;                          ///< finite; bounds the layers on all sides, m
-  std::array<bool, 3> cut{true, true, true};  ///< false on a side axis: the column has the sample's own width there,
-                                              ///< and grains that reach over it (walls, periodic faces) count whole
-  Vec3 period = Vec3::Zero();          ///< length of the box along periodic axes, 0 along the others, m
+  int axis = 2;                   ///< 0, 1, 2: across the layers
+  int layers = 1;                 ///< > 0
+  bool numbered_from_top = true;  ///< layer 0 at the high end, as in the thesis; else at the low end
+  Box column;                     ///< finite; bounds the layers on all sides, m
+  std::array<bool, 3> cut{true, true,
+                          true};  ///< false on a side axis: the column has the sample's own width there,
+                                  ///< and grains that reach over it (walls, periodic faces) count whole
+  Vec3 period = Vec3::Zero();     ///< length of the box along periodic axes, 0 along the others, m
   GrainShare share = GrainShare::volume;
 
-  double layer_volume() const;         ///< m³
-  Box layer_box(int layer) const;      ///< infinite along side axes that are not cut
+  double layer_volume() const;     ///< m³
+  Box layer_box(int layer) const;  ///< infinite along side axes that are not cut
 };
 
 /// What one rank adds to a layer.
@@ -53,13 +54,13 @@ struct LayerState {
   double void_ratio = 0;       ///< overlaps are counted twice as solid
   double coordination = 0;     ///< mean number of contacts of the layer's grains
   double grains = 0;
-  double stable_share = 0;     ///< M_s
+  double stable_share = 0;  ///< M_s
 };
 
 LayerState layer_state(const LayerSums& sums, double layer_volume);
 
-/// S² = Σ(e_k − e_avg)²/(n_L − 1) (thesis eq 6.1; `jiang2003`), e_avg the void ratio of the whole sample. 0 for fewer
-/// than two layers.
+/// S² = Σ(e_k − e_avg)²/(n_L − 1) (thesis eq 6.1; `jiang2003`), e_avg the void ratio of the whole sample. 0
+/// for fewer than two layers.
 double void_ratio_variance(std::span<const double> void_ratios, double sample_void_ratio);
 
 }  // namespace suffuse::micromechanics

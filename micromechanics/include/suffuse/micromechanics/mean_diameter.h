@@ -26,8 +26,9 @@ DiameterSums diameter_sums(const Packing& packing);
 /// Means over number and mass, m; 0 without grains. For MeanDiameter::d50 use diameter_finer_than.
 double mean_diameter(const DiameterSums& sums, MeanDiameter which);
 
-/// The diameter of the grain at which the cumulative volume, from the smallest up, reaches `share` of the total
-/// (0.5: d50), m. `diameters` of all grains of all ranks, any order. No interpolation between sizes; 0 if empty.
+/// The diameter of the grain at which the cumulative volume, from the smallest up, reaches `share` of the
+/// total (0.5: d50), m. `diameters` of all grains of all ranks, any order. No interpolation between sizes; 0
+/// if empty.
 double diameter_finer_than(std::span<const double> diameters, double share);
 
 }  // namespace suffuse::micromechanics

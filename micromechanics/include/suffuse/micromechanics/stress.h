@@ -13,12 +13,13 @@ enum class GrainArm {
   pair_halves     ///< half of the branch, whatever the radii (App. F; LIGGGHTS's `stress/atom`)
 };
 
-/// One rank's part of V σ_ij = Σ_c l_i f_j over the contacts it counts, N·m. l: branch from second to first grain,
-/// f: force on the first, so that compression is positive. No kinetic part (thesis eqs 4.1, 6.3).
+/// One rank's part of V σ_ij = Σ_c l_i f_j over the contacts it counts, N·m. l: branch from second to first
+/// grain, f: force on the first, so that compression is positive. No kinetic part (thesis eqs 4.1, 6.3).
 TensorSum stress_times_volume(const Packing& packing);
 
-/// V_p σ^p of each owned grain, N·m, in the order of Packing::grains (thesis eqs 4.2, 6.4). Sum over the grains of
-/// all ranks equals the sum over contacts, for either arm, if both ends of each contact belong to the packing.
+/// V_p σ^p of each owned grain, N·m, in the order of Packing::grains (thesis eqs 4.2, 6.4). Sum over the
+/// grains of all ranks equals the sum over contacts, for either arm, if both ends of each contact belong to
+/// the packing.
 std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm);
 
 /// p' = (σ_xx + σ_yy + σ_zz)/3, compression positive (thesis eq 5.1).

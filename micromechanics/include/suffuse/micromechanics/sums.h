@@ -29,11 +29,13 @@ struct TensorSum {
   static std::size_t index(int row, int column) { return static_cast<std::size_t>(3 * row + column); }
 };
 
-/// A struct of additive sums: nothing but doubles, so that sums of parts of a packing add up to the sum of the
-/// whole, member by member (one MPI_Allreduce).
+/// A struct of additive sums: nothing but doubles, so that sums of parts of a packing add up to the sum of
+/// the whole, member by member (one MPI_Allreduce).
 template <class Sums>
-concept AdditiveSums = std::is_standard_layout_v<Sums> && std::is_trivially_copyable_v<Sums> &&
-                       sizeof(Sums) % sizeof(double) == 0 && alignof(Sums) == alignof(double);
+concept AdditiveSums = std::is_standard_layout_v<Sums> && std::is_trivially_copyable_v<Sums> && sizeof(Sums) %
+                               sizeof(double) ==
+                           0 &&
+                       alignof(Sums) == alignof(double);
 
 /// The members of `sums` as one row of doubles.
 template <AdditiveSums Sums>

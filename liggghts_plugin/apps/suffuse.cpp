@@ -1,0 +1,153 @@
+// suffuse: LIGGGHTS with our fixes, computes and commands. Runs an ordinary LIGGGHTS script.
+
+#include <fmt/format.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "../register_styles.h"
+#include "error.h"
+#include "input.h"
+#include "lammps.h"
+#include "suffuse/common/error.h"
+
+namespace {
+
+constexpr const char* kHelp = R"(suffuse {version}: soil mechanics at the grain scale, on LIGGGHTS
+
+usage: suffuse -in SCRIPT [LIGGGHTS options]
+       mpirun -np N suffuse -in SCRIPT [LIGGGHTS options]
+
+LIGGGHTS options pass through, among them:
+  -in FILE            the script (otherwise it is read from standard input)
+  -var NAME VALUE     set a script variable, e.g. -var scale quick
+  -log FILE           name of the log file (none: no log)
+  -screen FILE        screen output to a file (none: no screen output)
+  -echo WHAT          none, screen, log or both
+
+Our own:
+  --help              this text
+  --version           the version
+  --styles            the fixes, computes and commands that suffuse adds
+)";
+
+bool given(int argc, char** argv, const char* option) {
+  for (int i = 1; i < argc; ++i)
+    if (std::strcmp(argv[i], option) == 0) return true;
+  return false;
+}
+
+bool answered_without_a_script(int argc, char** argv) {
+  if (given(argc, argv, "--help") || given(argc, argv, "-help") || given(argc, argv, "-h")) {
+    std::string text = kHelp;
+    text.replace(text.find("{version}"), 9, SUFFUSE_VERSION);
+    std::fputs(text.c_str(), stdout);
+    return true;
+  }
+  if (given(argc, argv, "--version")) {
+    fmt::print("suffuse {}\n", SUFFUSE_VERSION);
+    return true;
+  }
+  if (given(argc, argv, "--styles")) {
+    for (const std::string& name : suffuse::registered_styles()) fmt::print("{}\n", name);
+    return true;
+  }
+  return false;
+}
+
+const char* script_name(int argc, char** argv) {
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], "-in") == 0 || std::strcmp(argv[i], "-i") == 0) return argv[i + 1];
+  return nullptr;
+}
+
+/// Lets a script find files beside it: ${script_folder} is the folder of -in FILE (LIGGGHTS takes relative names from
+/// the folder of the run). A -var of the same name on the command line is read first and wins.
+void add_script_folder(std::vector<char*>& arguments, const char* script) {
+  static std::string folder;
+  static char option[] = "-var", name[] = "script_folder";
+  if (script == nullptr) return;
+  folder = std::filesystem::path(script).parent_path().string();
+  if (folder.empty()) folder = ".";
+  arguments.insert(arguments.end(), {option, name, folder.data()});
+}
+
+/// LIGGGHTS 3.8 writes to a null stream in some styles after `-screen none` and crashes; an empty device is
+/// as silent.
+std::vector<char*> with_a_real_screen(int argc, char** argv) {
+  static char empty_device[] = "/dev/null";
+  std::vector<char*> arguments(argv, argv + argc);
+  for (std::size_t i = 1; i + 1 < arguments.size(); ++i) {
+    const bool is_screen = std::strcmp(arguments[i], "-screen") == 0 || std::strcmp(arguments[i], "-sc") == 0;
+    if (is_screen && std::strcmp(arguments[i + 1], "none") == 0) arguments[i + 1] = empty_device;
+  }
+  return arguments;
+}
+
+void require_a_readable_script(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::strcmp(argv[i], "-in") != 0 && std::strcmp(argv[i], "-i") != 0) continue;
+    const char* file = i + 1 < argc ? argv[i + 1] : "";
+    if (access(file, R_OK) != 0)
+      suffuse::throw_user_error(
+          {"suffuse", "-in", *file ? file : "nothing", "name a readable script", "check the path"});
+    return;
+  }
+  if (isatty(STDIN_FILENO) != 0)
+    suffuse::throw_user_error(
+        {"suffuse", "-in", "nothing", "name a script", "suffuse -in SCRIPT, or see suffuse --help"});
+}
+
+/// Runs the script; LIGGGHTS ends the process itself on errors of its own.
+int run_script(int argc, char** argv, int rank) {
+  LAMMPS_NS::LAMMPS* lmp = nullptr;
+  try {
+    require_a_readable_script(argc, argv);
+    std::vector<char*> arguments = with_a_real_screen(argc, argv);
+    add_script_folder(arguments, script_name(argc, argv));
+    lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
+    suffuse::register_styles(lmp);
+    lmp->input->file();
+    delete lmp;
+    return 0;
+  } catch (const suffuse::UserError& problem) {
+    // Thrown on all ranks alike; the half-built LIGGGHTS is left to the operating system.
+    std::fflush(nullptr);
+    if (rank == 0) {
+      fmt::print(stderr, "suffuse: error: {}\n", problem.what());
+      if (lmp != nullptr && lmp->logfile != nullptr) {
+        fmt::print(lmp->logfile, "suffuse: error: {}\n", problem.what());
+        std::fflush(lmp->logfile);
+      }
+    }
+    return 1;
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "suffuse: internal error on rank {}: {}\n", rank, failure.what());
+    MPI_Abort(MPI_COMM_WORLD, 2);
+    return 2;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  int code = 0;
+  const bool own_option = given(argc, argv, "--help") || given(argc, argv, "-help") ||
+                          given(argc, argv, "-h") || given(argc, argv, "--version") ||
+                          given(argc, argv, "--styles");
+  if (own_option) {
+    if (rank == 0) answered_without_a_script(argc, argv);
+  } else {
+    code = run_script(argc, argv, rank);
+  }
+  MPI_Finalize();
+  return code;
+}

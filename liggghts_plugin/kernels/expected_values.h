@@ -1,0 +1,35 @@
+#pragma once
+
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace suffuse {
+
+/// One line of an expected.csv: what a source gives for a quantity of a case.
+struct ExpectedValue {
+  std::string case_name;
+  std::string quantity;
+  double value = 0;
+  double tolerance = 0;  ///< absolute; 0 if the source states none
+  std::string unit;
+  std::string source;
+};
+
+/// Reads an expected.csv: comment lines start with '#', then the header
+/// `case,quantity,value,tolerance,unit,source`, then one line a value (empty tolerance: none stated).
+/// Throws UserError, naming the line, if the header or a number is wrong. `name` is for messages.
+std::vector<ExpectedValue> read_expected_values(std::istream& file, const std::string& name);
+
+struct MeasuredValue {
+  std::string quantity;
+  double value = 0;
+};
+
+/// A table with one row for each measured quantity: measured, expected, difference in %, source. Quantities
+/// that the file does not give for the case appear without an expectation.
+std::string comparison_table(const std::vector<MeasuredValue>& measured,
+                             const std::vector<ExpectedValue>& expected, std::string_view case_name);
+
+}  // namespace suffuse

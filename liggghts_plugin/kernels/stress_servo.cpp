@@ -1,0 +1,188 @@
+#include "stress_servo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse::servo {
+namespace {
+
+/// Below this share of the target stress the sample counts as carrying none.
+constexpr double kUnloadedShare = 0.01;
+/// Integral action is this many times slower than the proportional one: well separated, so that they do not
+/// ring.
+constexpr double kIntegralSlowness = 10;
+/// Constrained modulus over bulk modulus of a packing of central springs: (1/5)/(1/9).
+constexpr double kConstrainedOverBulk = 1.8;
+/// The bulk modulus of a packing is several times its pressure, for Hertz about κ/2; a floor for nearly empty
+/// networks.
+constexpr double kLeastStiffnessOverTarget = 3;
+
+/// Proportional–integral action on one error, limited to ±limit. Updates the integral part.
+double drive(double error, double stiffness, const Measurement& m, double limit, double& bias) {
+  const double proportional = error / (stiffness * m.relaxation_time);
+  const double unlimited = proportional + bias;
+  if (std::abs(unlimited) <= limit || unlimited * proportional < 0)  // no wind-up against the limit
+    bias += proportional * m.interval / (kIntegralSlowness * m.relaxation_time);
+  bias = std::clamp(bias, -limit, limit);
+  return std::clamp(unlimited, -limit, limit);
+}
+
+double stiffness_of(const Settings& s, const Measurement& m) {
+  return std::max(m.bulk_stiffness, kLeastStiffnessOverTarget * s.target);
+}
+
+/// Equal rates on all axes, towards p' = target.
+void drive_isotropic(const Settings& s, const Measurement& m, State& state) {
+  const double p = mean_stress(m.stress);
+  // Three axes at the same rate: the volume strains three times as fast.
+  const double rate =
+      drive(s.target - p, 3 * stiffness_of(s, m), m, rate_limit(s, m.inertial_time, p), state.bias[0]);
+  state.rate.setConstant(rate);
+}
+
+/// Each axis on its own, towards the same stress on all.
+void drive_to_cell_pressure(const Settings& s, const Measurement& m, State& state) {
+  const double limit = rate_limit(s, m.inertial_time, mean_stress(m.stress));
+  for (int i = 0; i < 3; ++i)
+    state.rate[i] =
+        drive(s.target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit, state.bias[i]);
+}
+
+/// Axial rate as ordered, started smoothly, and no faster than the inertial number allows.
+double axial_rate(const Settings& s, const Measurement& m, State& state) {
+  state.axial_ramp = std::min(1.0, state.axial_ramp + m.interval / (kIntegralSlowness * m.relaxation_time));
+  const double limit = s.path == Path::kConstantVolume ? rate_limit(s, m.inertial_time, mean_stress(m.stress))
+                                                       : rate_limit(s, m.inertial_time, s.target);
+  const double ordered = s.axial_rate > 0 ? std::min(s.axial_rate, limit) : limit;
+  return ordered * state.axial_ramp * state.axial_direction;
+}
+
+void reverse_if_due(const Settings& s, const Measurement& m, State& state) {
+  const double q = deviatoric_stress(m.stress, s.axis);
+  const bool due = state.axial_direction > 0 ? q >= s.deviator_high : q <= s.deviator_low;
+  if (!due) return;
+  state.axial_direction = -state.axial_direction;
+  state.axial_ramp = 0;
+  ++state.reversals;
+}
+
+void shear(const Settings& s, const Measurement& m, State& state) {
+  if (s.path == Path::kCyclic) reverse_if_due(s, m, state);
+  const double axial = axial_rate(s, m, state);
+  state.rate[s.axis] = axial;
+  if (s.path == Path::kConstantVolume) {
+    for (int i = 0; i < 3; ++i)
+      if (i != s.axis) state.rate[i] = -0.5 * axial;
+    return;
+  }
+  const double lateral_target =
+      s.path == Path::kConstantMean ? 0.5 * (3 * s.target - m.stress[s.axis]) : s.target;
+  // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
+  // the axis.
+  const double limit = 2 * std::max(rate_limit(s, m.inertial_time, s.target), std::abs(axial));
+  for (int i = 0; i < 3; ++i) {
+    if (i == s.axis) continue;
+    state.rate[i] = drive(lateral_target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit,
+                          state.bias[i]);
+  }
+}
+
+bool reached(const Settings& s, const Measurement& m) {
+  const double band = s.tolerance * s.target;
+  if (std::abs(mean_stress(m.stress) - s.target) > band) return false;
+  if (s.path == Path::kIsotropic || s.path == Path::kConstantMean) return true;
+  return (m.stress.array() - s.target).abs().maxCoeff() <= band;
+}
+
+void begin_holding(const Settings& s, const Measurement& m, State& state) {
+  state.phase = Phase::kHolding;
+  state.reference_lengths = m.lengths;
+  state.axial_direction = s.direction;
+  state.axial_ramp = 0;
+  if (s.path == Path::kConstantMean || s.path == Path::kConstantVolume) state.bias.setZero();
+}
+
+bool stop_met(const Settings& s, const Measurement& m, const State& state) {
+  switch (s.stop) {
+    case Stop::kNone:
+      return false;
+    case Stop::kTarget:
+      return true;  // holding has begun
+    case Stop::kStatic:
+      return m.is_static;
+    case Stop::kAxialStrain:
+      return std::abs(axial_strain(state, m.lengths, s.axis)) >= s.stop_value;
+    case Stop::kCycles:
+      return static_cast<double>(state.reversals) >= 2 * s.stop_value;
+  }
+  return false;
+}
+
+}  // namespace
+
+double mean_stress(const Vec3& stress) {
+  return stress.sum() / 3;
+}
+
+double deviatoric_stress(const Vec3& stress, int axis) {
+  return stress[axis] - 0.5 * (stress.sum() - stress[axis]);
+}
+
+double rate_limit(const Settings& s, double inertial_time, double mean_stress) {
+  const double quasi_static = s.inertial_number / inertial_time;
+  const double unloaded = kUnloadedShare * s.target;
+  const double raise = mean_stress < unloaded ? unloaded / std::max(mean_stress, 1e-12 * unloaded) : 1.0;
+  return std::min(quasi_static * raise, s.max_rate);
+}
+
+double axial_strain(const State& state, const Vec3& lengths, int axis) {
+  if (state.phase == Phase::kApproaching) return 0;
+  return 1 - lengths[axis] / state.reference_lengths[axis];
+}
+
+double volumetric_strain(const State& state, const Vec3& lengths) {
+  if (state.phase == Phase::kApproaching) return 0;
+  return 1 - lengths.prod() / state.reference_lengths.prod();
+}
+
+State control(const Settings& s, const State& before, const Measurement& m) {
+  State state = before;
+  if (state.phase == Phase::kApproaching && (s.path == Path::kConstantVolume || reached(s, m)))
+    begin_holding(s, m, state);
+  else if (state.phase == Phase::kHolding && stop_met(s, m, state))
+    state.phase = Phase::kDone;
+
+  const bool shears = s.path != Path::kIsotropic && state.phase == Phase::kHolding;
+  if (shears)
+    shear(s, m, state);
+  else if (s.path == Path::kConstantVolume)
+    state.rate.setZero();  // done: the volume stays
+  else if (s.path == Path::kIsotropic ||
+           (s.path == Path::kConstantMean && state.phase == Phase::kApproaching))
+    drive_isotropic(s, m, state);
+  else if (state.phase == Phase::kApproaching)
+    drive_to_cell_pressure(s, m, state);
+  else
+    state.rate.setZero();  // sheared to its end: strains stay
+  return state;
+}
+
+bool sample_static(StaticWindow& w, double time, double mean_stress, double coordination, double duration,
+                   double tolerance) {
+  const bool started = w.start >= 0;
+  if (started) {
+    w.stress_low = std::min(w.stress_low, mean_stress);
+    w.stress_high = std::max(w.stress_high, mean_stress);
+    w.coordination_low = std::min(w.coordination_low, coordination);
+    w.coordination_high = std::max(w.coordination_high, coordination);
+  }
+  const bool constant =
+      started && mean_stress > 0 && coordination > 0 &&
+      w.stress_high - w.stress_low <= tolerance * (w.stress_high + w.stress_low) &&
+      w.coordination_high - w.coordination_low <= tolerance * (w.coordination_high + w.coordination_low);
+  if (constant) return time - w.start >= duration;
+  w = {time, mean_stress, mean_stress, coordination, coordination};
+  return false;
+}
+
+}  // namespace suffuse::servo

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+
+#include "suffuse/common/linear_algebra.h"
+
+/// The control law of `fix stress/servo`: strain rates of a periodic box from its measured stress. Pure: no
+/// LIGGGHTS, no MPI. Stresses and strains are positive in compression; strain rates are logarithmic, 1/s.
+namespace suffuse::servo {
+
+enum class Path {
+  kIsotropic,       ///< p' to the target, equal rates on the three axes (Appendix A)
+  kConstantMean,    ///< axial strain rate given, lateral stresses ½(3p' − σ_axial) (eqs 5.1–5.4)
+  kTriaxial,        ///< axial strain rate given, lateral stresses at the cell pressure
+  kCyclic,          ///< triaxial, the axial direction reverses at two bounds of the deviator
+  kConstantVolume,  ///< axial strain rate given, lateral rates −½ of it (undrained)
+};
+
+enum class Phase { kApproaching = 0, kHolding = 1, kDone = 2 };
+
+enum class Stop { kNone, kTarget, kStatic, kAxialStrain, kCycles };
+
+struct Settings {
+  Path path = Path::kIsotropic;
+  double target = 0;        ///< p' or cell pressure, Pa; unused for constant volume
+  int axis = 2;             ///< axial direction, 0..2
+  double direction = 1;     ///< +1 axial compression, −1 extension
+  double axial_rate = 0;    ///< magnitude, 1/s; 0: as fast as the inertial number allows
+  double deviator_low = 0;  ///< cyclic bounds of q = σ_axial − σ_lateral, Pa
+  double deviator_high = 0;
+  double inertial_number =
+      7.9e-5;                ///< limit of eq 3.17 at the target stress (thesis, after Perez et al. 2016)
+  double max_rate = 50;      ///< 1/s, while the sample carries no stress
+  double tolerance = 0.005;  ///< relative, of the controlled stress, and of p' and Z for `static`
+  Stop stop = Stop::kNone;
+  double stop_value = 0;  ///< axial strain, or number of cycles
+};
+
+/// What the control law is told at each control step.
+struct Measurement {
+  double interval = 0;          ///< time since the last control step, s
+  Vec3 stress = Vec3::Zero();   ///< normal stresses of the box, Pa
+  Vec3 lengths = Vec3::Zero();  ///< of the box, m
+  double bulk_stiffness = 0;    ///< upper bound of the elastic bulk modulus (from the contacts), Pa
+  double inertial_time = 0;     ///< d √(ρ/p_target): inertial number per strain rate, s
+  double relaxation_time = 0;   ///< of the controller, s
+  bool is_static = false;       ///< verdict of sample_static
+};
+
+/// Everything the law remembers.
+struct State {
+  Vec3 rate = Vec3::Zero();               ///< applied now, 1/s
+  Vec3 bias = Vec3::Zero();               ///< slow part of the rate (integral action), 1/s
+  Vec3 reference_lengths = Vec3::Zero();  ///< at the start of holding, m
+  double axial_ramp = 0;                  ///< 0..1, start of shearing
+  double axial_direction = 1;             ///< reverses in cyclic loading
+  std::int64_t reversals = 0;
+  Phase phase = Phase::kApproaching;
+};
+
+/// p' = (σ_x + σ_y + σ_z)/3 (eq 5.1).
+double mean_stress(const Vec3& stress);
+
+/// q = σ_axial − ½(σ_lateral1 + σ_lateral2); negative in extension.
+double deviatoric_stress(const Vec3& stress, int axis);
+
+/// Largest logarithmic strain rate per axis at a mean stress, 1/s.
+///
+/// I_max / (d √(ρ/p_target)) (eq 3.17 with the target in place of p'), raised in inverse proportion to p'
+/// while p' is below 1 % of the target, since a sample without a force network has no quasi-static state to
+/// keep; never above max_rate, and never below the limit of eq 3.17 unless max_rate itself is.
+double rate_limit(const Settings& settings, double inertial_time, double mean_stress);
+
+/// Engineering strain along an axis since the reference, (l₀ − l)/l₀.
+double axial_strain(const State& state, const Vec3& lengths, int axis);
+
+/// Engineering volumetric strain since the reference, (V₀ − V)/V₀.
+double volumetric_strain(const State& state, const Vec3& lengths);
+
+/// One control step: returns the state whose `rate` is to be applied until the next.
+///
+/// Proportional to the stress error over the bulk stiffness, with integral action (the lateral rates of a
+/// dilating sample must not cost a standing error) and limited by rate_limit. Throws nothing; any finite
+/// measurement is valid.
+State control(const Settings& settings, const State& state, const Measurement& measurement);
+
+/// Band of p' and Z since the last time that one of them moved.
+struct StaticWindow {
+  double start = -1;                       ///< s; negative before the first sample
+  double stress_low = 0, stress_high = 0;  ///< Pa
+  double coordination_low = 0, coordination_high = 0;
+};
+
+/// One sample for `static`: true once p' and Z have both varied by no more than ± tolerance (relative) for
+/// `duration` seconds (thesis, chapter 4: constant over 20,000 steps). A larger change starts the window
+/// anew.
+bool sample_static(StaticWindow& window, double time, double mean_stress, double coordination,
+                   double duration, double tolerance);
+
+}  // namespace suffuse::servo

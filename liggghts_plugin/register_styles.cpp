@@ -1,0 +1,124 @@
+#include "register_styles.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "compute.h"
+#include "fix.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "run.h"
+#include "signal_handling.h"
+#include "styles/all_styles.h"
+#include "styles/early_stop.h"
+
+namespace {
+
+using namespace LAMMPS_NS;
+
+using ComputeCreator = Compute* (*)(LAMMPS*, int, int, char**);
+using FixCreator = Fix* (*)(LAMMPS*, int, char**);
+using CommandCreator = void (*)(LAMMPS*, int, char**);
+
+// LIGGGHTS keeps its maps of styles private. The arguments of an explicit template instantiation are exempt
+// from access control ([temp.spec]), which is the one door the language leaves; it is used here and nowhere
+// else.
+template <class Tag, typename Tag::type Member>
+struct Expose {
+  friend typename Tag::type member_of(Tag) { return Member; }
+};
+struct ComputeMap {
+  using type = std::map<std::string, ComputeCreator>* Modify::*;
+  friend type member_of(ComputeMap);
+};
+struct FixMap {
+  using type = std::map<std::string, FixCreator>* Modify::*;
+  friend type member_of(FixMap);
+};
+struct CommandMap {
+  using type = std::map<std::string, CommandCreator>* Input::*;
+  friend type member_of(CommandMap);
+};
+template struct Expose<ComputeMap, &Modify::compute_map>;
+template struct Expose<FixMap, &Modify::fix_map>;
+template struct Expose<CommandMap, &Input::command_map>;
+
+template <class Style>
+Compute* make_compute(LAMMPS* lmp, int iarg, int narg, char** arg) {
+  return new Style(lmp, iarg, narg, arg);
+}
+template <class Style>
+Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
+  return new Style(lmp, narg, arg);
+}
+template <class Style>
+void make_command(LAMMPS* lmp, int narg, char** arg) {
+  Style(lmp).command(narg, arg);
+}
+
+/// `run`, able to end early: see early_stop.h. A real interrupt still ends the script.
+void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
+  suffuse::EarlyStop::requested = false;
+  Run(lmp).command(narg, arg);
+  if (suffuse::EarlyStop::requested) SignalHandler::request_quit = false;
+}
+
+const std::map<std::string, ComputeCreator>& our_computes() {
+  static const std::map<std::string, ComputeCreator> styles{
+#define COMPUTE_CLASS
+#define ComputeStyle(key, Class) {#key, &make_compute<Class>},
+#include "styles/all_styles.h"
+#undef ComputeStyle
+#undef COMPUTE_CLASS
+  };
+  return styles;
+}
+
+const std::map<std::string, FixCreator>& our_fixes() {
+  static const std::map<std::string, FixCreator> styles{
+#define FIX_CLASS
+#define FixStyle(key, Class) {#key, &make_fix<Class>},
+#include "styles/all_styles.h"
+#undef FixStyle
+#undef FIX_CLASS
+  };
+  return styles;
+}
+
+const std::map<std::string, CommandCreator>& our_commands() {
+  static const std::map<std::string, CommandCreator> styles{
+#define COMMAND_CLASS
+#define CommandStyle(key, Class) {#key, &make_command<Class>},
+#include "styles/all_styles.h"
+#undef CommandStyle
+#undef COMMAND_CLASS
+  };
+  return styles;
+}
+
+}  // namespace
+
+namespace suffuse {
+
+void register_styles(LAMMPS* lmp) {
+  for (const auto& [name, creator] : our_computes())
+    (*(lmp->modify->*member_of(ComputeMap{})))[name] = creator;
+  for (const auto& [name, creator] : our_fixes()) (*(lmp->modify->*member_of(FixMap{})))[name] = creator;
+  auto& commands = *(lmp->input->*member_of(CommandMap{}));
+  for (const auto& [name, creator] : our_commands()) commands[name] = creator;
+  commands["run"] = &run_until_stopped;
+  EarlyStop::supported = true;
+}
+
+std::vector<std::string> registered_styles() {
+  std::vector<std::string> names;
+  for (const auto& [name, creator] : our_computes()) names.push_back("compute " + name);
+  for (const auto& [name, creator] : our_fixes()) names.push_back("fix " + name);
+  for (const auto& [name, creator] : our_commands()) names.push_back("command " + name);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace suffuse {
+
+/// Adds our fixes, computes and commands to a LIGGGHTS instance, and puts our `run` in place of LIGGGHTS's
+/// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line.
+void register_styles(LAMMPS_NS::LAMMPS* lmp);
+
+/// Names of what register_styles adds, as "fix stress/servo", sorted.
+std::vector<std::string> registered_styles();
+
+}  // namespace suffuse

@@ -1,0 +1,16 @@
+// Every style of ours, in LIGGGHTS's own way: included with FIX_CLASS, COMPUTE_CLASS or COMMAND_CLASS
+// defined, each header expands to its FixStyle(...), ComputeStyle(...) or CommandStyle(...) line.
+#include "command_dem_timestep.h"
+#include "command_report.h"
+#include "compute_broken_contacts.h"
+#include "compute_constraint_ratio.h"
+#include "compute_coordination.h"
+#include "compute_fabric.h"
+#include "compute_inertial_number.h"
+#include "compute_sliding_contacts.h"
+#include "compute_slipping_index.h"
+#include "compute_stress_layer.h"
+#include "compute_stress_reduction.h"
+#include "compute_strong_contacts.h"
+#include "fix_contact_sampler.h"
+#include "fix_stress_servo.h"

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace suffuse {
+
+/// How a fix ends the current `run` early.
+///
+/// LIGGGHTS leaves its time loop once SignalHandler::request_quit is set, and would then leave the script as
+/// well. The `run` command that `suffuse` registers (command_run_until.h) takes the flag back if a fix has
+/// set it, so that the script goes on. Where that command is not in place (our styles dropped into a LIGGGHTS
+/// source tree), a fix must not ask.
+struct EarlyStop {
+  static inline bool supported = false;  ///< set while our `run` command is active
+  static inline bool requested = false;  ///< set by a fix, on all ranks in the same step
+};
+
+}  // namespace suffuse

@@ -1,0 +1,100 @@
+#ifdef FIX_CLASS
+
+// clang-format off
+FixStyle(contact/sampler, FixContactSampler)
+// clang-format on
+
+#else
+
+#ifndef SUFFUSE_FIX_CONTACT_SAMPLER_H
+#define SUFFUSE_FIX_CONTACT_SAMPLER_H
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "compute.h"
+#include "fix.h"
+#include "suffuse/micromechanics/contact_network.h"
+
+namespace LAMMPS_NS {
+
+class PairGran;
+class ContactCollector;
+
+/// Finds all grain–grain contacts and their forces, once for every step on which some compute of ours is
+/// evaluated.
+///
+/// Added by the first style that needs it (`FixContactSampler::of`); scripts never name it. It samples in
+/// post_force, where ghost velocities are those of the force computation, so that the forces are exactly the
+/// ones that the integrator uses, on any number of ranks. A value that is asked for on another step (a
+/// variable evaluated by `print` between runs) is sampled on demand, after ghost positions and velocities
+/// have been brought up to date.
+///
+/// Cost: nothing on steps without a request; otherwise one pass over the neighbour list with the contact law,
+/// about the time of one force computation.
+class FixContactSampler : public Fix {
+ public:
+  FixContactSampler(LAMMPS* lmp, int narg, char** arg);
+  ~FixContactSampler() override;
+
+  /// The sampler of this LIGGGHTS instance, created when first asked for.
+  static FixContactSampler& of(LAMMPS* lmp);
+
+  /// From now on, sample on the steps that `compute` has been asked for in advance (its timeflag must be
+  /// set).
+  void add_user(Compute* compute);
+
+  /// To be called by the destructor of a compute that was added.
+  static void forget_user(LAMMPS* lmp, Compute* compute);
+
+  /// Sample on this step as well.
+  void request(bigint step);
+
+  /// Grains of a group that this rank owns and their contacts with grains of the same group, at the current
+  /// step. Forces are those on `first`; volume is that of the box. Valid until the next call on another step.
+  const suffuse::micromechanics::Packing& packing(int group_bit);
+
+  /// Index in Packing::grains of owned atom i, or kNotOwned if it is outside the group; same order as
+  /// packing().
+  const std::vector<int>& grain_index(int group_bit);
+
+  /// Exponent of the normal force in the overlap: 1.5 for Hertz, 1 for a linear spring.
+  double force_exponent() const;
+
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void post_force(int) override;
+
+ private:
+  friend class ContactCollector;
+  struct GroupPacking {
+    suffuse::micromechanics::Packing packing;
+    std::vector<int> index;
+  };
+
+  bool wanted() const;
+  void sample();
+  void add_contact(int i, int j, const double* force_on_i);
+  GroupPacking& group_packing(int group_bit);
+
+  std::unique_ptr<ContactCollector> collector_;
+  PairGran* pair_ = nullptr;
+  std::vector<Compute*> users_;
+  bigint requested_step_ = -1;
+  bigint sampled_step_ = -1;
+  double volume_ = 0;
+  suffuse::Vec3 box_low_ = suffuse::Vec3::Zero();
+  suffuse::Vec3 box_high_ = suffuse::Vec3::Zero();
+  std::vector<suffuse::micromechanics::Contact>
+      contacts_;                      // indices are those of LIGGGHTS's atoms, all groups
+  std::vector<int> ghost_of_second_;  // atom index of second, owned or ghost, for its group
+  std::vector<double> friction_;      // coefficient for each pair of types
+  std::map<int, GroupPacking> by_group_;
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,96 @@
+#ifdef FIX_CLASS
+
+// clang-format off
+FixStyle(stress/servo, FixStressServo)
+// clang-format on
+
+#else
+
+#ifndef SUFFUSE_FIX_STRESS_SERVO_H
+#define SUFFUSE_FIX_STRESS_SERVO_H
+
+#include <string>
+#include <vector>
+
+#include "../kernels/stress_servo.h"
+#include "fix.h"
+#include "style_support.h"
+
+namespace LAMMPS_NS {
+
+class FixContactSampler;
+
+/// fix ID group stress/servo PATH ...: deforms the periodic box along a stress path. Reference page:
+/// docs/reference/fix_stress_servo.md. Control law: kernels/stress_servo.h.
+class FixStressServo : public Fix {
+ public:
+  FixStressServo(LAMMPS* lmp, int narg, char** arg);
+  ~FixStressServo() override;
+
+  void post_create() override;
+  int setmask() override;
+  void init() override;
+  void setup(int) override;
+  void end_of_step() override;
+  void reset_dt() override;
+  double compute_scalar() override;
+  double compute_vector(int n) override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+
+ private:
+  enum class MeanDiameter { kMass, kNumber, kGiven };
+
+  void read_path(suffuse::ArgumentReader& reader);
+  void read_shear_path(suffuse::ArgumentReader& reader, const std::string& name);
+  void read_option(suffuse::ArgumentReader& reader);
+  void read_stop(suffuse::ArgumentReader& reader);
+  void set_static_window();
+  void schedule();
+  void measure_stress();
+  void measure_network();
+  void control();
+  void deform();
+  void announce_stop();
+  void report_progress();
+  double inertial_time() const;
+  double inertial_number() const;
+  double void_ratio() const;
+  std::string signature() const;
+  std::vector<double> pack() const;
+  void unpack(const double* values);
+
+  suffuse::servo::Settings settings_;
+  suffuse::servo::State state_;
+  suffuse::servo::StaticWindow static_window_;
+  suffuse::Vec3 stress_ = suffuse::Vec3::Zero();  // normal stresses at the last control step, Pa
+  suffuse::Vec3 shear_ = suffuse::Vec3::Zero();   // xy, xz, yz
+  double coordination_ = 0;
+  double bulk_stiffness_ = 0;
+  double unbalanced_ = 0;  // mean resultant force on a grain over mean contact force
+  bool is_static_ = false;
+
+  bigint every_ = 50;            // steps between control steps
+  bigint network_every_ = 1000;  // steps between samples of the contact network
+  bigint window_steps_ = 0;      // of `static`; 0: from the Rayleigh time
+  double window_ = 0;            // s
+  double progress_every_ = 30;   // s of wall clock; 0: never
+  double last_progress_ = 0;
+  double started_ = 0;  // wall clock at setup
+  double strain_at_start_ = 0;
+  MeanDiameter diameter_kind_ = MeanDiameter::kMass;
+  double diameter_ = 0;
+  double density_ = 0;
+  double solid_volume_ = 0;
+  bigint stop_step_ = -1;  // the run ends after this step
+  bool restored_ = false;
+  bool rate_note_given_ = false;
+  FixContactSampler* sampler_ = nullptr;
+  class Compute* pressure_ = nullptr;
+  std::string pressure_id_;
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
+#endif

@@ -1,0 +1,164 @@
+#include "style_support.h"
+
+#include <mpi.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+
+#include "atom.h"
+#include "domain.h"
+#include "fix_property_global.h"
+#include "force.h"
+#include "group.h"
+#include "lammps.h"
+#include "modify.h"
+#include "pair_gran.h"
+#include "suffuse/common/error.h"
+
+using LAMMPS_NS::LAMMPS;
+
+namespace suffuse {
+namespace {
+
+bool parse_number(const char* text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text, &end);
+  return end != text && *end == '\0' && std::isfinite(value);
+}
+
+}  // namespace
+
+ArgumentReader::ArgumentReader(std::string who, int narg, char** arg, int first)
+    : who_(std::move(who)), narg_(narg), arg_(arg), next_(first) {}
+
+std::string ArgumentReader::word(std::string_view purpose) {
+  if (done())
+    throw_user_error({who_, std::string(purpose), "nothing (the line ends)", "be given",
+                      "add it, see the command reference"});
+  return arg_[next_++];
+}
+
+bool ArgumentReader::accept(std::string_view expected) {
+  if (done() || expected != arg_[next_]) return false;
+  ++next_;
+  return true;
+}
+
+bool ArgumentReader::next_is_number() const {
+  double value = 0;
+  return !done() && parse_number(arg_[next_], value);
+}
+
+double ArgumentReader::number(std::string_view what) {
+  const std::string text = word(what);
+  double value = 0;
+  if (!parse_number(text.c_str(), value))
+    throw_user_error({who_, std::string(what), text, "be a number", "write it in SI units, e.g. 200e3"});
+  return value;
+}
+
+double ArgumentReader::positive(std::string_view what) {
+  const double value = number(what);
+  if (!(value > 0))
+    throw_user_error({who_, std::string(what), arg_[next_ - 1], "be > 0", "give its magnitude in SI units"});
+  return value;
+}
+
+std::int64_t ArgumentReader::positive_integer(std::string_view what) {
+  const double value = number(what);
+  if (!(value >= 1) || value != std::floor(value) || value > 9e15)
+    throw_user_error({who_, std::string(what), arg_[next_ - 1], "be a whole number >= 1", ""});
+  return static_cast<std::int64_t>(value);
+}
+
+void ArgumentReader::unknown(std::string_view given, std::string_view known) const {
+  throw_user_error({who_, "keyword", std::string(given), "be one of: " + std::string(known), ""});
+}
+
+void require_grains_in_group(LAMMPS* lmp, std::string_view who, int igroup) {
+  if (lmp->group->count(igroup) > 0) return;
+  throw_user_error({std::string(who), "group", lmp->group->names[igroup], "contain grains",
+                    "insert the grains first, or name another group"});
+}
+
+LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS* lmp, std::string_view who) {
+  auto* pair = lmp->force->pair == nullptr ? nullptr : lmp->force->pair_match("gran", 0);
+  auto* granular = dynamic_cast<LAMMPS_NS::PairGran*>(pair);
+  if (granular == nullptr)
+    throw_user_error({std::string(who), "pair style",
+                      lmp->force->pair_style ? lmp->force->pair_style : "none", "be a granular one",
+                      "write `pair_style gran model hertz tangential history` and `pair_coeff * *` before"});
+  return *granular;
+}
+
+void require_periodic_box(LAMMPS* lmp, std::string_view who) {
+  if (lmp->domain->box_exist == 0)
+    throw_user_error(
+        {std::string(who), "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});
+  if (lmp->domain->nonperiodic != 0)
+    throw_user_error(
+        {std::string(who), "boundary", "not periodic on all faces", "be periodic", "write `boundary p p p`"});
+  if (lmp->domain->triclinic != 0)
+    throw_user_error({std::string(who), "box", "triclinic", "be orthogonal", "use a `region ... block`"});
+}
+
+void sum_over_ranks(LAMMPS* lmp, std::span<double> values) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                lmp->world);
+}
+
+ElasticConstants elastic_constants(LAMMPS* lmp) {
+  const int types = lmp->atom->ntypes;
+  const auto find = [&](const char* name) {
+    return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
+        lmp->modify->find_fix_property(name, "property/global", "peratomtype", types, 0, "suffuse", false));
+  };
+  auto* modulus = find("youngsModulus");
+  auto* ratio = find("poissonsRatio");
+  ElasticConstants constants;
+  if (modulus == nullptr || ratio == nullptr) return constants;
+  constants.known = true;
+  for (int type = 0; type < types; ++type) {
+    const double candidate = modulus->compute_vector(type);
+    if (candidate <= constants.youngs_modulus) continue;
+    constants.youngs_modulus = candidate;
+    constants.poisson_ratio = ratio->compute_vector(type);
+  }
+  return constants;
+}
+
+GrainStatistics grain_statistics(LAMMPS* lmp, int groupbit) {
+  const auto* atom = lmp->atom;
+  std::array<double, 5> sums{};  // count, volume, mass, diameters, mass times diameter
+  std::array<double, 2> extremes{std::numeric_limits<double>::lowest(),
+                                 std::numeric_limits<double>::lowest()};
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    const double radius = atom->radius[i];
+    const double mass = atom->rmass[i];
+    sums[0] += 1;
+    sums[1] += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    sums[2] += mass;
+    sums[3] += 2 * radius;
+    sums[4] += mass * 2 * radius;
+    extremes[0] = std::max(extremes[0], -radius);
+    extremes[1] = std::max(extremes[1], radius);
+  }
+  sum_over_ranks(lmp, sums);
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 2, MPI_DOUBLE, MPI_MAX, lmp->world);
+  GrainStatistics statistics;
+  statistics.count = static_cast<std::int64_t>(sums[0]);
+  if (statistics.count == 0) return statistics;
+  statistics.solid_volume = sums[1];
+  statistics.mean_density = sums[2] / sums[1];
+  statistics.smallest_radius = -extremes[0];
+  statistics.largest_radius = extremes[1];
+  statistics.number_mean_diameter = sums[3] / sums[0];
+  statistics.mass_mean_diameter = sums[4] / sums[2];
+  return statistics;
+}
+
+}  // namespace suffuse

@@ -1,0 +1,84 @@
+#pragma once
+
+// Shared by our LIGGGHTS styles: reading of arguments with errors that say how to mend them, and the few
+// LIGGGHTS look-ups that several styles need.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace LAMMPS_NS {
+class LAMMPS;
+class PairGran;
+}  // namespace LAMMPS_NS
+
+namespace suffuse {
+
+/// Reads a style's words from left to right. Every problem is a UserError that names the style.
+class ArgumentReader {
+ public:
+  /// `who` names the style in messages, e.g. "compute coordination"; `first` is the index of the first word
+  /// to read.
+  ArgumentReader(std::string who, int narg, char** arg, int first);
+
+  bool done() const { return next_ >= narg_; }
+
+  /// The next word, a keyword; `purpose` says what was expected, for the message.
+  std::string word(std::string_view purpose);
+
+  /// True, and the word is consumed, if the next word is `expected`.
+  bool accept(std::string_view expected);
+
+  /// True if the next word reads as a number.
+  bool next_is_number() const;
+
+  double number(std::string_view what);
+  double positive(std::string_view what);
+  std::int64_t positive_integer(std::string_view what);
+
+  /// Throws for a word that no keyword matches. `known` lists the keywords for the remedy.
+  [[noreturn]] void unknown(std::string_view given, std::string_view known) const;
+
+  const std::string& who() const { return who_; }
+
+ private:
+  std::string who_;
+  int narg_;
+  char** arg_;
+  int next_;
+};
+
+/// Throws unless the group has grains on some rank. Collective.
+void require_grains_in_group(LAMMPS_NS::LAMMPS* lmp, std::string_view who, int igroup);
+
+/// Throws unless a granular pair style is defined; returns it.
+LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+
+/// Throws unless the box is periodic on all faces and orthogonal.
+void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+
+/// Sum over ranks, in place.
+void sum_over_ranks(LAMMPS_NS::LAMMPS* lmp, std::span<double> values);
+
+/// Elastic constants of the contact model of one atom type, from `fix property/global`.
+struct ElasticConstants {
+  bool known = false;
+  double youngs_modulus = 0;  ///< Pa, of the stiffest type
+  double poisson_ratio = 0;   ///< of that type
+};
+ElasticConstants elastic_constants(LAMMPS_NS::LAMMPS* lmp);
+
+/// Sizes and masses of all grains of a group. Collective.
+struct GrainStatistics {
+  std::int64_t count = 0;
+  double solid_volume = 0;          ///< m³
+  double mean_density = 0;          ///< kg/m³
+  double smallest_radius = 0;       ///< m
+  double largest_radius = 0;        ///< m
+  double number_mean_diameter = 0;  ///< m
+  double mass_mean_diameter = 0;    ///< Σ m d / Σ m, m
+};
+GrainStatistics grain_statistics(LAMMPS_NS::LAMMPS* lmp, int groupbit);
+
+}  // namespace suffuse
