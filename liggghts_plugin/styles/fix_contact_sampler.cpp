@@ -199,6 +199,8 @@ FixContactSampler::GroupPacking& FixContactSampler::group_packing(int group_bit)
 
   GroupPacking& result = by_group_[group_bit];
   result.packing.volume = volume_;
+  result.packing.box_low = box_low_;
+  result.packing.box_high = box_high_;
   result.index.assign(static_cast<std::size_t>(atom->nlocal), kNotOwned);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & group_bit) == 0) continue;
