@@ -34,10 +34,12 @@ double stiffness_of(const Settings& s, const Measurement& m) {
 /// Equal rates on all axes, towards p' = target.
 void drive_isotropic(const Settings& s, const Measurement& m, State& state) {
   const double p = mean_stress(m.stress);
-  // Three axes at the same rate: the volume strains three times as fast.
-  const double rate =
-      drive(s.target - p, 3 * stiffness_of(s, m), m, rate_limit(s, m.inertial_time, p), state.bias[0]);
-  state.rate.setConstant(rate);
+  const double limit = rate_limit(s, m.inertial_time, p);
+  // Three axes at the same rate: the volume strains three times as fast. Nothing strains a sample at rest, so
+  // there is no standing error for integral action to remove, only an overshoot for it to cause.
+  const double rate = (s.target - p) / (3 * stiffness_of(s, m) * m.relaxation_time);
+  state.rate.setConstant(std::clamp(rate, -limit, limit));
+  state.bias.setZero();
 }
 
 /// Each axis on its own, towards the same stress on all.

@@ -1,0 +1,36 @@
+#include "kernels/expected_values.h"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "suffuse/common/error.h"
+
+using namespace suffuse;
+
+TEST_CASE("expected values are read with comments, quotes and empty tolerances") {
+  std::istringstream file(
+      "# from a table\ncase,quantity,value,tolerance,unit,source\nA,porosity,0.231,,-,\"Table 5.1, A(30%)\"\n"
+      "A,mean_stress,200000,1000,Pa,text\n");
+  const auto values = read_expected_values(file, "expected.csv");
+  REQUIRE(values.size() == 2);
+  CHECK(values[0].value == 0.231);
+  CHECK(values[0].tolerance == 0);
+  CHECK(values[0].source == "Table 5.1, A(30%)");
+  CHECK(values[1].tolerance == 1000);
+}
+
+TEST_CASE("a wrong header, number or cell count names its line") {
+  for (const char* text : {"name,value\n", "case,quantity,value,tolerance,unit,source\nA,porosity,abc,,-,x\n",
+                           "case,quantity,value,tolerance,unit,source\nA,porosity,1\n"}) {
+    std::istringstream file(text);
+    CHECK_THROWS_AS(read_expected_values(file, "expected.csv"), UserError);
+  }
+}
+
+TEST_CASE("the comparison gives the difference in per cent, and a dash for what the source does not give") {
+  const std::string table = comparison_table({{"porosity", 0.22}, {"beta", 1.0}},
+                                             {{"A", "porosity", 0.2, 0, "-", "Table 5.1"}}, "A");
+  CHECK(table.find("+10.0") != std::string::npos);
+  CHECK(table.find("Table 5.1") != std::string::npos);
+  CHECK(table.find("beta") != std::string::npos);
+}
