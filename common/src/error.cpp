@@ -5,7 +5,8 @@
 namespace suffuse {
 
 void throw_user_error(const InputProblem& problem) {
-  std::string line = fmt::format("{}: {} = {}, must {}", problem.who, problem.what, problem.value, problem.rule);
+  std::string line =
+      fmt::format("{}: {} = {}, must {}", problem.who, problem.what, problem.value, problem.rule);
   if (!problem.remedy.empty()) line += "; " + problem.remedy;
   throw UserError(line);
 }

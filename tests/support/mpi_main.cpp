@@ -1,5 +1,5 @@
-// main of the Catch2 programs that run under mpirun: a failure on any rank fails the test, output comes from rank 0
-// unless another rank fails.
+// main of the Catch2 programs that run under mpirun: a failure on any rank fails the test, output comes from
+// rank 0 unless another rank fails.
 #define CATCH_CONFIG_RUNNER
 #include <mpi.h>
 

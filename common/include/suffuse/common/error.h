@@ -8,8 +8,8 @@ namespace suffuse {
 
 /// A mistake in what a person wrote (script, option, file), never in the program.
 ///
-/// Thrown on every rank alike, before anything has been changed. The outermost level prints one line on rank 0
-/// and every rank exits with code 1.
+/// Thrown on every rank alike, before anything has been changed. The outermost level prints one line on rank
+/// 0 and every rank exits with code 1.
 class UserError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
