@@ -46,18 +46,36 @@ class ContactCollector : public ComputePairGranLocal {
     return collector;
   }
 
+  /// Passes every contact to the sampler.
+  ///
+  /// The pair style leaves the spring of a sliding contact at its Coulomb limit, so that a second evaluation
+  /// finds it above or below the limit by rounding, and below adds a damping force that the first did not
+  /// have: by chance, and otherwise on other ranks. The springs are therefore stretched by kStretch for the
+  /// sweep, which keeps sliding contacts sliding, and put back bit for bit.
   void sweep(PairGran& pair) {
     ComputePairGranLocal* previous = pair.cpl();
     if (previous != nullptr) pair.unregister_compute_pair_local(previous);
     int history_values = 0;
     pair.register_compute_pair_local(this, history_values);
+    springs_.clear();
+    saved_.clear();
+    finding_springs_ = true;
+    spring_values_ = pair.is_history() ? pair.dnum() : 0;
+    if (spring_values_ > 0) pair.compute_pgl(0, 0);
+    finding_springs_ = false;
+    stretch_springs();
     pair.compute_pgl(0, 0);
+    restore_springs();
     pair.unregister_compute_pair_local(this);
     if (previous != nullptr) pair.register_compute_pair_local(previous, history_values);
   }
 
-  void add_pair(int i, int j, double fx, double fy, double fz, double, double, double, double*,
+  void add_pair(int i, int j, double fx, double fy, double fz, double, double, double, double* history,
                 const double* const) override {
+    if (finding_springs_) {
+      if (history != nullptr) springs_.push_back(history);
+      return;
+    }
     const double force_on_i[3] = {fx, fy, fz};
     sampler_->add_contact(i, j, force_on_i);
   }
@@ -67,7 +85,29 @@ class ContactCollector : public ComputePairGranLocal {
   ContactCollector(LAMMPS* lmp_in, int& first, char** words, FixContactSampler* sampler)
       : ComputePairGranLocal(lmp_in, first, 3, words), sampler_(sampler) {}
 
+  void stretch_springs() {
+    for (double* spring : springs_) {
+      saved_.insert(saved_.end(), spring, spring + spring_values_);
+      for (int k = 0; k < spring_values_; ++k) spring[k] *= 1 + kStretch;
+    }
+  }
+
+  void restore_springs() {
+    const double* saved = saved_.data();
+    for (double* spring : springs_) {
+      std::copy(saved, saved + spring_values_, spring);
+      saved += spring_values_;
+    }
+  }
+
+  static constexpr double kStretch =
+      1e-13;  // above the rounding of the limit, some 1e-16, below any result's digits
+
   FixContactSampler* sampler_;
+  bool finding_springs_ = false;
+  int spring_values_ = 0;
+  std::vector<double*> springs_;
+  std::vector<double> saved_;
 };
 
 }  // namespace LAMMPS_NS
