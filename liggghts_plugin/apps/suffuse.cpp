@@ -66,8 +66,8 @@ const char* script_name(int argc, char** argv) {
   return nullptr;
 }
 
-/// Lets a script find files beside it: ${script_folder} is the folder of -in FILE (LIGGGHTS takes relative names from
-/// the folder of the run). A -var of the same name on the command line is read first and wins.
+/// Lets a script find files beside it: ${script_folder} is the folder of -in FILE (LIGGGHTS takes relative
+/// names from the folder of the run). A -var of the same name on the command line is read first and wins.
 void add_script_folder(std::vector<char*>& arguments, const char* script) {
   static std::string folder;
   static char option[] = "-var", name[] = "script_folder";

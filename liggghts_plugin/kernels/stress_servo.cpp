@@ -8,9 +8,11 @@ namespace {
 
 /// Below this share of the target stress the sample counts as carrying none.
 constexpr double kUnloadedShare = 0.01;
-/// Integral action is this many times slower than the proportional one: well separated, so that they do not
-/// ring.
-constexpr double kIntegralSlowness = 10;
+/// Slow parts of the law take this many controller time constants: integral action, start of shearing.
+constexpr double kSlowness = 10;
+/// Share of a wrong stress rate that one control step corrects. Two coupled lateral boundaries double the
+/// effect of a correction, and the stiffness may be underestimated by as much again: below 1/4 neither rings.
+constexpr double kCorrection = 0.2;
 /// Constrained modulus over bulk modulus of a packing of central springs: (1/5)/(1/9).
 constexpr double kConstrainedOverBulk = 1.8;
 /// The bulk modulus of a packing is several times its pressure, for Hertz about κ/2; a floor for nearly empty
@@ -22,7 +24,7 @@ double drive(double error, double stiffness, const Measurement& m, double limit,
   const double proportional = error / (stiffness * m.relaxation_time);
   const double unlimited = proportional + bias;
   if (std::abs(unlimited) <= limit || unlimited * proportional < 0)  // no wind-up against the limit
-    bias += proportional * m.interval / (kIntegralSlowness * m.relaxation_time);
+    bias += proportional * m.interval / (kSlowness * m.relaxation_time);
   bias = std::clamp(bias, -limit, limit);
   return std::clamp(unlimited, -limit, limit);
 }
@@ -50,9 +52,18 @@ void drive_to_cell_pressure(const Settings& s, const Measurement& m, State& stat
         drive(s.target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit, state.bias[i]);
 }
 
+/// The rate of one lateral boundary, from the one before, such that its stress follows a moving target.
+double follow(const Settings& s, const Measurement& m, double rate, double error, double target_rate,
+              double stress_rate, double limit) {
+  const double wanted = error / m.relaxation_time + target_rate;
+  const double correction =
+      kCorrection * (wanted - stress_rate) / (kConstrainedOverBulk * stiffness_of(s, m));
+  return std::clamp(rate + correction, -limit, limit);
+}
+
 /// Axial rate as ordered, started smoothly, and no faster than the inertial number allows.
 double axial_rate(const Settings& s, const Measurement& m, State& state) {
-  state.axial_ramp = std::min(1.0, state.axial_ramp + m.interval / (kIntegralSlowness * m.relaxation_time));
+  state.axial_ramp = std::min(1.0, state.axial_ramp + m.interval / (kSlowness * m.relaxation_time));
   const double limit = s.path == Path::kConstantVolume ? rate_limit(s, m.inertial_time, mean_stress(m.stress))
                                                        : rate_limit(s, m.inertial_time, s.target);
   const double ordered = s.axial_rate > 0 ? std::min(s.axial_rate, limit) : limit;
@@ -77,16 +88,16 @@ void shear(const Settings& s, const Measurement& m, State& state) {
       if (i != s.axis) state.rate[i] = -0.5 * axial;
     return;
   }
-  const double lateral_target =
-      s.path == Path::kConstantMean ? 0.5 * (3 * s.target - m.stress[s.axis]) : s.target;
+  const Vec3 stress_rate = (m.stress - state.last_stress) / m.interval;
+  const bool constant_mean = s.path == Path::kConstantMean;
+  const double target = constant_mean ? 0.5 * (3 * s.target - m.stress[s.axis]) : s.target;
+  const double target_rate = constant_mean ? -0.5 * stress_rate[s.axis] : 0.0;
   // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
   // the axis.
   const double limit = 2 * std::max(rate_limit(s, m.inertial_time, s.target), std::abs(axial));
-  for (int i = 0; i < 3; ++i) {
-    if (i == s.axis) continue;
-    state.rate[i] = drive(lateral_target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit,
-                          state.bias[i]);
-  }
+  for (int i = 0; i < 3; ++i)
+    if (i != s.axis)
+      state.rate[i] = follow(s, m, state.rate[i], target - m.stress[i], target_rate, stress_rate[i], limit);
 }
 
 bool reached(const Settings& s, const Measurement& m) {
@@ -101,7 +112,7 @@ void begin_holding(const Settings& s, const Measurement& m, State& state) {
   state.reference_lengths = m.lengths;
   state.axial_direction = s.direction;
   state.axial_ramp = 0;
-  if (s.path == Path::kConstantMean || s.path == Path::kConstantVolume) state.bias.setZero();
+  state.last_stress = m.stress;
 }
 
 bool stop_met(const Settings& s, const Measurement& m, const State& state) {
@@ -166,6 +177,7 @@ State control(const Settings& s, const State& before, const Measurement& m) {
     drive_to_cell_pressure(s, m, state);
   else
     state.rate.setZero();  // sheared to its end: strains stay
+  state.last_stress = m.stress;
   return state;
 }
 

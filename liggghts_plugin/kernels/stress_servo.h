@@ -51,6 +51,7 @@ struct Measurement {
 struct State {
   Vec3 rate = Vec3::Zero();               ///< applied now, 1/s
   Vec3 bias = Vec3::Zero();               ///< slow part of the rate (integral action), 1/s
+  Vec3 last_stress = Vec3::Zero();        ///< at the control step before, Pa
   Vec3 reference_lengths = Vec3::Zero();  ///< at the start of holding, m
   double axial_ramp = 0;                  ///< 0..1, start of shearing
   double axial_direction = 1;             ///< reverses in cyclic loading

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "kernels/expected_values.h"
 #include "comm.h"
+#include "kernels/expected_values.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 

@@ -145,6 +145,8 @@ void FixContactSampler::sample() {
   by_group_.clear();
   collector_->sweep(*pair_);
   volume_ = domain->xprd * domain->yprd * domain->zprd;
+  box_low_ = suffuse::Vec3(domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]);
+  box_high_ = suffuse::Vec3(domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]);
   sampled_step_ = update->ntimestep;
   // Now, not when first read: a servo moves grains and box at the end of the step.
   for (Compute* user : users_)
@@ -197,6 +199,8 @@ FixContactSampler::GroupPacking& FixContactSampler::group_packing(int group_bit)
 
   GroupPacking& result = by_group_[group_bit];
   result.packing.volume = volume_;
+  result.packing.box_low = box_low_;
+  result.packing.box_high = box_high_;
   result.index.assign(static_cast<std::size_t>(atom->nlocal), kNotOwned);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & group_bit) == 0) continue;

@@ -85,6 +85,8 @@ class FixContactSampler : public Fix {
   bigint requested_step_ = -1;
   bigint sampled_step_ = -1;
   double volume_ = 0;
+  suffuse::Vec3 box_low_ = suffuse::Vec3::Zero();
+  suffuse::Vec3 box_high_ = suffuse::Vec3::Zero();
   std::vector<suffuse::micromechanics::Contact>
       contacts_;                      // indices are those of LIGGGHTS's atoms, all groups
   std::vector<int> ghost_of_second_;  // atom index of second, owned or ghost, for its group

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <numeric>
 
 #include "atom.h"
@@ -19,12 +18,15 @@
 #include "output.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/bulk_stiffness.h"
+#include "suffuse/micromechanics/dem_time_step.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 using suffuse::Vec3;
 namespace servo = suffuse::servo;
+namespace mm = suffuse::micromechanics;
 
 namespace {
 
@@ -227,9 +229,8 @@ void FixStressServo::set_static_window() {
     window_ = static_cast<double>(window_steps_) * update->dt;
   } else if (elastic.known) {
     const auto grains = suffuse::grain_statistics(lmp, groupbit);
-    const double shear_modulus = elastic.youngs_modulus / (2 * (1 + elastic.poisson_ratio));
-    const double rayleigh = std::numbers::pi * grains.smallest_radius * std::sqrt(density_ / shear_modulus) /
-                            (0.1631 * elastic.poisson_ratio + 0.8766);
+    const double rayleigh = mm::rayleigh_time(
+        {elastic.youngs_modulus, elastic.poisson_ratio, density_, 2 * grains.smallest_radius});
     window_ = kStaticRayleighTimes * rayleigh;
   } else {
     window_ = 20000 * update->dt;
@@ -275,23 +276,23 @@ void FixStressServo::measure_network() {
   // grains, contacts, Σ k_n l², Σ |f|, Σ |resultant|
   std::array<double, 5> sums{};
   sums[0] = static_cast<double>(packing.grains.size());
+  std::vector<double> normal_stiffness;
   std::vector<Vec3> resultant(packing.grains.size(), Vec3::Zero());
   for (const auto& contact : packing.contacts) {
     const auto first = static_cast<std::size_t>(contact.first);
+    const double depth = mm::overlap(contact, packing.grains[first].radius);
+    normal_stiffness.push_back(exponent * mm::normal_force(contact) / depth);  // of f ~ depth^exponent
     resultant[first] += contact.force;
-    if (contact.second != suffuse::micromechanics::kNotOwned)
-      resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
+    if (contact.second != mm::kNotOwned) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
     if (!contact.counted) continue;
-    const double depth = suffuse::micromechanics::overlap(contact, packing.grains[first].radius);
     sums[1] += 1;
-    sums[2] +=
-        exponent * suffuse::micromechanics::normal_force(contact) / depth * contact.branch.squaredNorm();
     sums[3] += contact.force.norm();
   }
+  sums[2] = mm::stiffness_length_sum(packing, normal_stiffness);
   for (const Vec3& net_force : resultant) sums[4] += net_force.norm();
   suffuse::sum_over_ranks(lmp, sums);
   coordination_ = 2 * sums[1] / sums[0];
-  bulk_stiffness_ = sums[2] / (9 * packing.volume);
+  bulk_stiffness_ = mm::voigt_bulk_modulus(sums[2], packing.volume);
   unbalanced_ = sums[3] > 0 ? (sums[4] / sums[0]) / (sums[3] / sums[1]) : 0;
   is_static_ = servo::sample_static(static_window_, static_cast<double>(update->ntimestep) * update->dt,
                                     servo::mean_stress(stress_), coordination_, window_, settings_.tolerance);
@@ -460,7 +461,8 @@ std::string FixStressServo::signature() const {
 
 std::vector<double> FixStressServo::pack() const {
   std::vector<double> values;
-  for (const Vec3& v : {state_.rate, state_.bias, state_.reference_lengths, stress_, shear_})
+  for (const Vec3& v :
+       {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
   for (const double value :
@@ -473,7 +475,8 @@ std::vector<double> FixStressServo::pack() const {
 
 /// The inverse of pack().
 void FixStressServo::unpack(const double* values) {
-  for (Vec3* v : {&state_.rate, &state_.bias, &state_.reference_lengths, &stress_, &shear_}) {
+  for (Vec3* v :
+       {&state_.rate, &state_.bias, &state_.last_stress, &state_.reference_lengths, &stress_, &shear_}) {
     *v = Vec3(values[0], values[1], values[2]);
     values += 3;
   }

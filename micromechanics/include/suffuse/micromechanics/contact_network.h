@@ -12,25 +12,25 @@ inline constexpr int kNotOwned = -1;
 
 /// One contact as seen from an owned grain.
 ///
-/// A contact between two owned grains is listed once. A contact between an owned grain and an image (another rank's
-/// grain, or a periodic image) is listed once for each owner, so that sums over a grain's own contacts need no
-/// communication; of those listings exactly one, over all ranks, has `counted` set.
+/// A contact between two owned grains is listed once. A contact between an owned grain and an image (another
+/// rank's grain, or a periodic image) is listed once for each owner, so that sums over a grain's own contacts
+/// need no communication; of those listings exactly one, over all ranks, has `counted` set.
 struct Contact {
-  int first = 0;                ///< index into Packing::grains
-  int second = kNotOwned;       ///< index into Packing::grains, or kNotOwned
-  bool counted = true;          ///< this listing stands for the contact in sums over contacts
-  std::int64_t first_id = 0;    ///< grain identifiers, unique over all ranks
+  int first = 0;              ///< index into Packing::grains
+  int second = kNotOwned;     ///< index into Packing::grains, or kNotOwned
+  bool counted = true;        ///< this listing stands for the contact in sums over contacts
+  std::int64_t first_id = 0;  ///< grain identifiers, unique over all ranks
   std::int64_t second_id = 0;
-  Vec3 branch = Vec3::Zero();   ///< centre of second to centre of first, nearest image, m
-  Vec3 force = Vec3::Zero();    ///< contact force on first, N
-  double second_radius = 0;     ///< m
-  double friction = 0;          ///< Coulomb coefficient of the pair, dimensionless
+  Vec3 branch = Vec3::Zero();  ///< centre of second to centre of first, nearest image, m
+  Vec3 force = Vec3::Zero();   ///< contact force on first, N
+  double second_radius = 0;    ///< m
+  double friction = 0;         ///< Coulomb coefficient of the pair, dimensionless
 };
 
 /// A grain that this rank owns.
 struct Grain {
   std::int64_t id = 0;
-  double radius = 0;            ///< m
+  double radius = 0;             ///< m
   Vec3 position = Vec3::Zero();  ///< m
 };
 
@@ -39,6 +39,9 @@ struct Packing {
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
   double volume = 0;  ///< of the whole sample, voids included, over all ranks; m³
+  Vec3 box_low =
+      Vec3::Zero();  ///< corners of the box at the time of the contacts, m: a servo moves them within a
+  Vec3 box_high = Vec3::Zero();  ///< step, after the forces
 };
 
 /// Magnitude of the normal force, |f·n|, N.

@@ -1,0 +1,94 @@
+#include "compute_broken_contacts.h"
+
+#include <fstream>
+
+#include "comm.h"
+#include "lammps.h"
+#include "pair_exchange.h"
+#include "suffuse/common/error.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using namespace suffuse::micromechanics;
+
+ComputeBrokenContacts::ComputeBrokenContacts(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
+    : ContactCompute(lmp_in, iarg, narg, arg) {
+  suffuse::ArgumentReader reader(who(), narg, arg, iarg);
+  while (!reader.done()) {
+    const std::string key = reader.word("keyword");
+    if (key != "reference") reader.unknown(key, "reference");
+    const std::string kind = reader.word("reference");
+    if (kind == "step")
+      reference_step_ = reader.positive_integer("reference step");
+    else if (kind == "file")
+      file_ = reader.word("reference file");
+    else if (kind != "first")
+      suffuse::throw_user_error({who(), "reference", kind, "be first, step N or file NAME", ""});
+  }
+  declare_vector(6);
+}
+
+double ComputeBrokenContacts::compute_scalar() {
+  compute_vector();
+  invoked_scalar = update->ntimestep;
+  return scalar = values_[0];
+}
+
+void ComputeBrokenContacts::compute_vector() {
+  invoked_vector = update->ntimestep;
+  const Packing& sample = packing();
+  const Pairs current = suffuse::share_out_by_hash(contact_pairs(sample), world);
+  const CoordinationSums sums = over_ranks(coordination_sums(sample, {}));
+  // An empty state is no reference: contacts may form later.
+  if (!has_reference_ && sums.contacts > 0 && update->ntimestep >= reference_step_) take_reference(current);
+  const BrokenSums counts = over_ranks(has_reference_ ? broken_sums(reference_, current) : BrokenSums{});
+  const BrokenContacts broken = broken_contacts(counts);
+  values_ = {broken.net,       broken.gross,  broken.formed,
+             counts.reference, sums.contacts, coordination(sums, sample.volume).stable_share};
+  vector = values_.data();
+}
+
+void ComputeBrokenContacts::take_reference(const Pairs& current) {
+  has_reference_ = true;
+  if (!file_.empty() && read_reference_file()) return;
+  reference_ = current;
+  if (!file_.empty()) write_reference_file();
+}
+
+bool ComputeBrokenContacts::read_reference_file() {
+  Pairs pairs;
+  int found = 0, readable = 1;
+  if (comm->me == 0) {
+    std::ifstream in(file_);
+    found = in.is_open();
+    std::string header;
+    if (found) std::getline(in, header);
+    GrainPair pair;
+    while (found && in >> pair.low >> pair.high) pairs.push_back(pair);
+    if (found) readable = in.eof() && !pairs.empty();
+  }
+  MPI_Bcast(&found, 1, MPI_INT, 0, world);
+  MPI_Bcast(&readable, 1, MPI_INT, 0, world);
+  if (!readable)
+    suffuse::throw_user_error({who(), "reference file", file_,
+                               "hold one header line and two grain numbers a line",
+                               "delete it to take the reference anew"});
+  if (found) reference_ = suffuse::share_out_by_hash(pairs, world);
+  return found != 0;
+}
+
+void ComputeBrokenContacts::write_reference_file() const {
+  const Pairs pairs = suffuse::gather_pairs(reference_, world);
+  int written = 1;
+  if (comm->me == 0) {
+    std::ofstream out(file_);
+    out << "# contacts at step " << update->ntimestep << ", the two grains' numbers\n";
+    for (const GrainPair& pair : pairs) out << pair.low << ' ' << pair.high << '\n';
+    out.close();
+    written = !out.fail();
+  }
+  MPI_Bcast(&written, 1, MPI_INT, 0, world);
+  if (!written)
+    suffuse::throw_user_error(
+        {std::string("compute ") + style, "reference file", file_, "be writable", "create its folder"});
+}

@@ -1,0 +1,19 @@
+#include "suffuse/micromechanics/bulk_stiffness.h"
+
+#include <cassert>
+
+namespace suffuse::micromechanics {
+
+double stiffness_length_sum(const Packing& packing, std::span<const double> normal_stiffness) {
+  assert(normal_stiffness.size() == packing.contacts.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < packing.contacts.size(); ++i)
+    if (packing.contacts[i].counted) sum += normal_stiffness[i] * packing.contacts[i].branch.squaredNorm();
+  return sum;
+}
+
+double voigt_bulk_modulus(double sum, double volume) {
+  return sum / (9 * volume);
+}
+
+}  // namespace suffuse::micromechanics

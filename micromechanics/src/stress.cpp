@@ -1,0 +1,52 @@
+#include "suffuse/micromechanics/stress.h"
+
+#include <cmath>
+
+namespace suffuse::micromechanics {
+namespace {
+
+/// Length from the centre of a grain of `radius` to the contact point, in a contact with this overlap.
+double arm_length(double radius, double overlap_length, double distance, GrainArm arm) {
+  return arm == GrainArm::contact_point ? radius - overlap_length / 2 : distance / 2;
+}
+
+}  // namespace
+
+TensorSum stress_times_volume(const Packing& packing) {
+  TensorSum sum;
+  for (const Contact& contact : packing.contacts)
+    if (contact.counted) sum.add(contact.branch * contact.force.transpose());
+  return sum;
+}
+
+std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm) {
+  std::vector<Mat3> stress(packing.grains.size(), Mat3::Zero());
+  for (const Contact& contact : packing.contacts) {
+    const double distance = contact.branch.norm();
+    const double first_radius = packing.grains[static_cast<std::size_t>(contact.first)].radius;
+    const double overlap_length = overlap(contact, first_radius);
+    const Mat3 unit = contact.branch / distance * contact.force.transpose();
+    stress[static_cast<std::size_t>(contact.first)] +=
+        arm_length(first_radius, overlap_length, distance, arm) * unit;
+    if (contact.second != kNotOwned)
+      stress[static_cast<std::size_t>(contact.second)] +=
+          arm_length(contact.second_radius, overlap_length, distance, arm) * unit;
+  }
+  return stress;
+}
+
+double mean_stress(const Mat3& stress) {
+  return stress.trace() / 3;
+}
+
+double axial_deviatoric_stress(const Mat3& stress, int axis) {
+  return stress(axis, axis) - (stress.trace() - stress(axis, axis)) / 2;
+}
+
+double deviatoric_stress_invariant(const Mat3& stress) {
+  const Mat3 symmetric = (stress + stress.transpose()) / 2;
+  const Mat3 deviator = symmetric - mean_stress(symmetric) * Mat3::Identity();
+  return std::sqrt(1.5 * deviator.cwiseProduct(deviator).sum());
+}
+
+}  // namespace suffuse::micromechanics

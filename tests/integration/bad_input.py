@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""bad_input.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
+
+What a person may write wrongly for the servo and the commands: each gives one line that names the culprit and the
+remedy, and exit code 1 on every rank.
+"""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scenes import expect, loose_sample, program_from_command_line, scratch  # noqa: E402
+
+SAMPLE = loose_sample(grains=30)
+OPEN_SAMPLE = loose_sample(grains=30, boundary="f f f")
+SERVO = "fix s all stress/servo "
+
+# (script after the sample, words that the message must hold)
+CASES = [
+    (SAMPLE + SERVO + "isotropic\n", ["fix stress/servo", "target mean stress", "be given"]),
+    (SAMPLE + SERVO + "isotropic 0\n", ["target mean stress = 0", "must be > 0"]),
+    (SAMPLE + SERVO + "isotropic -200e3\n", ["target mean stress = -200e3", "must be > 0"]),
+    (SAMPLE + SERVO + "isotropic 200kPa\n", ["200kPa", "must be a number"]),
+    (SAMPLE + SERVO + "hydrostatic 200e3\n", ["stress path = hydrostatic", "isotropic"]),
+    (SAMPLE + SERVO + "isotropic 200e3 evry 50\n", ["keyword = evry", "every"]),
+    (SAMPLE + SERVO + "isotropic 200e3 every 0\n", ["every = 0", "whole number"]),
+    (SAMPLE + SERVO + "isotropic 200e3 until\n", ["stop condition", "be given"]),
+    (SAMPLE + SERVO + "isotropic 200e3 until axial_strain 0.1\n", ["until = axial_strain", "shear path"]),
+    (SAMPLE + SERVO + "constant_p 200e3 until static\n", ["until = static", "axial_strain"]),
+    (SAMPLE + SERVO + "constant_p 200e3 until axial_strain 15\n", ["axial_strain = 15", "0.15"]),
+    (SAMPLE + SERVO + "triaxial 100e3 axis w\n", ["axis = w", "x, y or z"]),
+    (SAMPLE + SERVO + "cyclic 100e3 axis z rate 1\n", ["deviator = none", "two bounds"]),
+    (SAMPLE + SERVO + "cyclic 100e3 deviator 40e3 -20e3\n", ["deviator = 40000 -20000", "lower < upper"]),
+    (SAMPLE + SERVO + "isotropic 200e3 diameter median\n", ["diameter = median", "mass, number"]),
+    (OPEN_SAMPLE + SERVO + "isotropic 200e3\n", ["boundary", "be periodic"]),
+    (SAMPLE + "group none empty\n".replace("empty", "type 2") + "fix s none stress/servo isotropic 200e3\n", ["group = none", "be all"]),
+    (SAMPLE + SERVO + "isotropic 200e3\nfix t all stress/servo isotropic 200e3\nrun 10\n", ["servos = 2", "unfix"]),
+    (SAMPLE + SERVO + "isotropic 200e3\nfix d all deform 1 x erate -1\nrun 10\n", ["fix = d", "deform"]),
+    (SAMPLE + "delete_atoms group all\n" + SERVO + "isotropic 200e3\nrun 10\n", ["group = all", "contain grains"]),
+    (SAMPLE + "dem_timestep rayleigh 0.1\n", ["dem_timestep", "pressure = missing"]),
+    (SAMPLE + "dem_timestep rayleigh 2 pressure 1e5\n", ["share = 2", "<= 1"]),
+    (SAMPLE + "dem_timestep rayleigh -1 pressure 1e5\n", ["share of the Rayleigh time = -1", "> 0"]),
+    (SAMPLE + "timestep 1e-3\ndem_timestep check pressure 1e5\n", ["time step = 0.001 s", "eq 3.3"]),
+    (SAMPLE + "dem_timestep guess pressure 1e5\n", ["keyword = guess", "rayleigh, check"]),
+    (SAMPLE + "report nowhere.csv A values p 1\n", ["file = nowhere.csv", "readable"]),
+    (SAMPLE + "report wrong.csv A values p 1\n", ["wrong.csv", "header"]),
+    (SAMPLE + "report wrong.csv A values p\n", ["report", "be given"]),
+]
+
+
+def main():
+    program = program_from_command_line(__doc__)
+    failures = []
+    with scratch() as folder:
+        (pathlib.Path(folder) / "wrong.csv").write_text("name,value\n")
+        for script, words in CASES:
+            last = script.strip().splitlines()[-1]
+            code, screen = program.run(script, folder, timeout=60)
+            lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
+            if code != 1:
+                failures.append(f"`{last}` ended with code {code}\n{screen[-500:]}")
+            elif len(lines) != 1:
+                failures.append(f"`{last}` gave {len(lines)} error lines\n{screen[-500:]}")
+            else:
+                failures += [f"`{last}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+        code, screen = program.run("", folder, name="empty")
+        expect(code == 0, f"an empty script ended with code {code}")
+    expect(not failures, "\n".join(failures))
+    print(f"{program.ranks} ranks: {len(CASES)} mistakes, each named in one line")
+
+
+if __name__ == "__main__":
+    main()

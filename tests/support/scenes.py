@@ -1,0 +1,109 @@
+"""Small dry scenes for the integration tests, and how to run them.
+
+A scene is a LIGGGHTS script as text. `Program` runs it in a folder of its own on a number of ranks.
+"""
+import argparse
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+HEADER = """
+units si
+atom_style granular
+atom_modify map array
+communicate single vel yes
+boundary {boundary}
+newton off
+"""
+
+MATERIAL = """
+neighbor 1e-4 bin
+neigh_modify delay 0
+fix modulus all property/global youngsModulus peratomtype 7e8
+fix ratio all property/global poissonsRatio peratomtype 0.3
+fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
+fix friction all property/global coefficientFriction peratomtypepair 1 {friction}
+pair_style gran model hertz tangential history
+pair_coeff * *
+fix motion all nve/sphere
+"""
+
+# Three sizes, 0.5 to 1 mm, placed at random without contact.
+GRAINS = """
+region sample block 0 {length} 0 {length} 0 {length} units box
+create_box 1 sample
+{material}
+fix large all particletemplate/sphere 11593 atom_type 1 density constant 2650 radius constant 0.5e-3
+fix middle all particletemplate/sphere 11701 atom_type 1 density constant 2650 radius constant 0.35e-3
+fix small all particletemplate/sphere 11807 atom_type 1 density constant 2650 radius constant 0.25e-3
+fix grading all particledistribution/discrete 32452843 3 large 0.5 middle 0.3 small 0.2
+fix insertion all insert/pack seed 32452867 distributiontemplate grading insert_every once overlapcheck yes &
+    particles_in_region {grains} region sample ntry_mc 20000
+timestep 8e-7
+run 1
+unfix insertion
+thermo_modify lost error norm no
+"""
+
+
+def loose_sample(grains=400, friction=0.0, boundary="p p p"):
+    """Script text that fills a box loosely; the box holds them at a void ratio of about 2.2."""
+    volume = grains * 1.7e-10  # mean grain of the three sizes
+    length = (volume * 3.2) ** (1 / 3)
+    return HEADER.format(boundary=boundary) + GRAINS.format(
+        length=length, grains=grains, material=MATERIAL.format(friction=friction))
+
+
+def read_sample(restart, before="", friction=0.3):
+    """Script text that takes up a sample from a restart file; `before` stands before the box is read."""
+    return HEADER.format(boundary="p p p") + before + f"read_restart {restart}\n" + MATERIAL.format(friction=friction) + \
+        "timestep 8e-7\nthermo_modify lost error norm no\n"
+
+
+class Program:
+    """`suffuse` under mpirun."""
+
+    def __init__(self, suffuse, mpirun, ranks):
+        self.suffuse, self.mpirun, self.ranks = suffuse, mpirun, ranks
+
+    def run(self, text, folder, name="scene", timeout=240):
+        """Runs the script; returns (exit code, screen text)."""
+        folder = pathlib.Path(folder)
+        script = folder / f"in.{name}"
+        script.write_text(text)
+        done = subprocess.run([self.mpirun, str(self.ranks), self.suffuse, "-in", script.name, "-log", f"log.{name}", "-echo", "none"],
+                              cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+        return done.returncode, done.stdout.decode(errors="replace")
+
+    def must_run(self, text, folder, name="scene", timeout=240):
+        code, screen = self.run(text, folder, name, timeout)
+        if code != 0:
+            sys.exit(f"{name} ended with code {code}:\n{screen[-3000:]}")
+        return screen
+
+
+def program_from_command_line(description):
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--suffuse", required=True)
+    parser.add_argument("--mpirun", required=True)
+    parser.add_argument("--ranks", type=int, required=True)
+    options = parser.parse_args()
+    return Program(options.suffuse, options.mpirun, options.ranks)
+
+
+def columns(path):
+    """A CSV file's columns as lists of floats by name."""
+    with open(path) as file:
+        rows = list(csv.reader(file))
+    return {name: [float(row[k]) for row in rows[1:]] for k, name in enumerate(rows[0])}
+
+
+def scratch():
+    return tempfile.TemporaryDirectory(prefix="suffuse-test-")
+
+
+def expect(condition, message):
+    if not condition:
+        sys.exit(message)
