@@ -38,6 +38,7 @@ def draw(series, target_pa, output):
             panel.set_ylabel("coordination\nnumber Z (−)")
         else:
             panel.semilogy(time_ms, series["inertial_number"])
+            panel.set_ylim(bottom=max(panel.get_ylim()[0], 1e-6))  # below it the sample rests; how well is no matter
             panel.set_ylabel("inertial\nnumber I (−)")
     axes[-1].set_xlabel("time of the simulation (ms)")
     figure.align_ylabels(axes)
