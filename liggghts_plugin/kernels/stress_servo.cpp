@@ -115,6 +115,13 @@ void begin_holding(const Settings& s, const Measurement& m, State& state) {
   state.last_stress = m.stress;
 }
 
+void note_peak(const Settings& s, const Measurement& m, State& state) {
+  const double q = deviatoric_stress(m.stress, s.axis);
+  if (std::abs(q) <= std::abs(state.peak_deviator)) return;
+  state.peak_deviator = q;
+  state.strain_at_peak = axial_strain(state, m.lengths, s.axis);
+}
+
 bool stop_met(const Settings& s, const Measurement& m, const State& state) {
   switch (s.stop) {
     case Stop::kNone:
@@ -166,17 +173,17 @@ State control(const Settings& s, const State& before, const Measurement& m) {
     state.phase = Phase::kDone;
 
   const bool shears = s.path != Path::kIsotropic && state.phase == Phase::kHolding;
-  if (shears)
+  if (shears) {
+    note_peak(s, m, state);
     shear(s, m, state);
-  else if (s.path == Path::kConstantVolume)
-    state.rate.setZero();  // done: the volume stays
-  else if (s.path == Path::kIsotropic ||
-           (s.path == Path::kConstantMean && state.phase == Phase::kApproaching))
+  } else if (s.path == Path::kIsotropic ||
+             (s.path == Path::kConstantMean && state.phase == Phase::kApproaching)) {
     drive_isotropic(s, m, state);
-  else if (state.phase == Phase::kApproaching)
+  } else if (state.phase == Phase::kApproaching) {
     drive_to_cell_pressure(s, m, state);
-  else
+  } else {
     state.rate.setZero();  // sheared to its end: strains stay
+  }
   state.last_stress = m.stress;
   return state;
 }

@@ -62,7 +62,7 @@ FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
 
   scalar_flag = 1;
   vector_flag = 1;
-  size_vector = 18;
+  size_vector = 20;
   global_freq = 1;
   extscalar = 0;
   extvector = 0;
@@ -309,8 +309,6 @@ void FixStressServo::end_of_step() {
   }
   deform();
   if (step == stop_step_) {
-    update->nsteps = static_cast<int>(step - update->firststep);  // the number that LIGGGHTS reports
-    update->laststep = step;
     suffuse::EarlyStop::requested = true;
     SignalHandler::request_quit = true;
   }
@@ -354,6 +352,8 @@ void FixStressServo::announce_stop() {
     stop_step_ = -1;
     return;
   }
+  update->laststep = stop_step_;
+  update->nsteps = static_cast<int>(stop_step_ - update->firststep);  // the number that LIGGGHTS reports
   output->next = output->next_thermo = stop_step_;
   modify->addstep_compute_all(stop_step_);
 }
@@ -418,8 +418,14 @@ double FixStressServo::compute_vector(int n) {
     case 13:
     case 14:
       return stress_[n - 12];
-    default:
+    case 15:
+    case 16:
+    case 17:
       return shear_[n - 15];
+    case 18:
+      return state_.peak_deviator;
+    default:
+      return state_.strain_at_peak;
   }
 }
 
@@ -465,10 +471,10 @@ std::vector<double> FixStressServo::pack() const {
        {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
-  for (const double value :
-       {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
-        static_cast<double>(state_.phase), w.start, w.stress_low, w.stress_high, w.coordination_low,
-        w.coordination_high, coordination_, bulk_stiffness_, unbalanced_, is_static_ ? 1.0 : 0.0})
+  for (const double value : {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
+                             state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase),
+                             w.start, w.stress_low, w.stress_high, w.coordination_low, w.coordination_high,
+                             coordination_, bulk_stiffness_, unbalanced_, is_static_ ? 1.0 : 0.0})
     values.push_back(value);
   return values;
 }
@@ -483,6 +489,8 @@ void FixStressServo::unpack(const double* values) {
   state_.axial_ramp = *values++;
   state_.axial_direction = *values++;
   state_.reversals = static_cast<std::int64_t>(*values++);
+  state_.peak_deviator = *values++;
+  state_.strain_at_peak = *values++;
   state_.phase = static_cast<servo::Phase>(static_cast<int>(*values++));
   auto& w = static_window_;
   for (double* value : {&w.start, &w.stress_low, &w.stress_high, &w.coordination_low, &w.coordination_high,
