@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "atom.h"
 #include "comm.h"
@@ -37,17 +36,7 @@ constexpr double kRelaxationIntervals = 10;
 /// time (Appendix A): a time of so many Rayleigh times, whatever the step or the contact stiffness.
 constexpr double kStaticRayleighTimes = 20000 * 0.0994;
 constexpr int kSamplesPerWindow = 20;
-constexpr const char* kKeywords =
-    "every, inertial_number, diameter, max_rate, tolerance, static_window, progress, until";
-
 constexpr std::size_t kSignatureSize = 96;
-
-int axis_index(const std::string& who, const std::string& word) {
-  if (word == "x") return 0;
-  if (word == "y") return 1;
-  if (word == "z") return 2;
-  throw_user_error({who, "axis", word, "be x, y or z", ""});
-}
 
 }  // namespace
 
@@ -57,8 +46,7 @@ FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
   if (igroup != 0)
     throw_user_error(
         {reader.who(), "group", arg[1], "be all", "a periodic box deforms with all of its grains"});
-  read_path(reader);
-  while (!reader.done()) read_option(reader);
+  arguments_ = suffuse::read_servo_arguments(reader);
 
   scalar_flag = 1;
   vector_flag = 1;
@@ -73,116 +61,6 @@ FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
 
 FixStressServo::~FixStressServo() {
   if (modify->find_compute(pressure_id_.data()) >= 0) modify->delete_compute(pressure_id_.data());
-}
-
-void FixStressServo::read_path(suffuse::ArgumentReader& reader) {
-  constexpr const char* kPaths = "isotropic, constant_p, triaxial, cyclic, constant_volume";
-  const std::string name = reader.word(fmt::format("stress path ({})", kPaths));
-  if (name == "isotropic") {
-    settings_.path = servo::Path::kIsotropic;
-    settings_.target = reader.positive("target mean stress");
-    return;
-  }
-  if (name == "constant_p")
-    settings_.path = servo::Path::kConstantMean;
-  else if (name == "triaxial")
-    settings_.path = servo::Path::kTriaxial;
-  else if (name == "cyclic")
-    settings_.path = servo::Path::kCyclic;
-  else if (name == "constant_volume")
-    settings_.path = servo::Path::kConstantVolume;
-  else
-    throw_user_error({reader.who(), "stress path", name, fmt::format("be one of: {}", kPaths), ""});
-  read_shear_path(reader, name);
-}
-
-void FixStressServo::read_shear_path(suffuse::ArgumentReader& reader, const std::string& name) {
-  if (settings_.path != servo::Path::kConstantVolume) settings_.target = reader.positive("target stress");
-  bool bounds_given = false;
-  while (!reader.done()) {
-    if (reader.accept("axis")) {
-      settings_.axis = axis_index(reader.who(), reader.word("axis"));
-    } else if (reader.accept("compression")) {
-      settings_.direction = 1;
-    } else if (reader.accept("extension")) {
-      settings_.direction = -1;
-    } else if (reader.accept("rate")) {
-      settings_.axial_rate = reader.positive("axial strain rate");
-    } else if (name == "cyclic" && reader.accept("deviator")) {
-      settings_.deviator_low = reader.number("lower bound of the deviator");
-      settings_.deviator_high = reader.number("upper bound of the deviator");
-      bounds_given = true;
-    } else {
-      break;
-    }
-  }
-  if (settings_.path != servo::Path::kCyclic) return;
-  if (!bounds_given || settings_.deviator_low >= settings_.deviator_high)
-    throw_user_error(
-        {reader.who(), "deviator",
-         bounds_given ? fmt::format("{:g} {:g}", settings_.deviator_low, settings_.deviator_high) : "none",
-         "be two bounds, lower < upper", "e.g. `deviator -20e3 40e3`"});
-}
-
-void FixStressServo::read_option(suffuse::ArgumentReader& reader) {
-  const std::string key = reader.word("keyword");
-  if (key == "every") {
-    every_ = reader.positive_integer("every");
-  } else if (key == "inertial_number") {
-    settings_.inertial_number = reader.positive("inertial_number");
-  } else if (key == "diameter") {
-    if (reader.accept("mass")) {
-      diameter_kind_ = MeanDiameter::kMass;
-    } else if (reader.accept("number")) {
-      diameter_kind_ = MeanDiameter::kNumber;
-    } else if (reader.next_is_number()) {
-      diameter_kind_ = MeanDiameter::kGiven;
-      diameter_ = reader.positive("diameter");
-    } else {
-      throw_user_error({reader.who(), "diameter", reader.word("diameter (mass, number or a value in m)"),
-                        "be mass, number or a value in m", ""});
-    }
-  } else if (key == "max_rate") {
-    settings_.max_rate = reader.positive("max_rate");
-  } else if (key == "tolerance") {
-    settings_.tolerance = reader.positive("tolerance");
-  } else if (key == "static_window") {
-    window_steps_ = reader.positive_integer("static_window");
-  } else if (key == "progress") {
-    progress_every_ = reader.number("progress");
-  } else if (key == "until") {
-    read_stop(reader);
-  } else {
-    reader.unknown(key, kKeywords);
-  }
-}
-
-void FixStressServo::read_stop(suffuse::ArgumentReader& reader) {
-  const std::string condition = reader.word("stop condition (target, static, axial_strain or cycles)");
-  const bool shears = settings_.path != servo::Path::kIsotropic;
-  if (condition == "target") {
-    settings_.stop = servo::Stop::kTarget;
-  } else if (condition == "static") {
-    settings_.stop = servo::Stop::kStatic;
-    if (shears)
-      throw_user_error({reader.who(), "until", "static", "go with isotropic",
-                        "a sheared sample is never static; use axial_strain"});
-  } else if (condition == "axial_strain") {
-    settings_.stop = servo::Stop::kAxialStrain;
-    settings_.stop_value = reader.positive("axial_strain");
-    if (!shears)
-      throw_user_error({reader.who(), "until", condition, "go with a shear path", "use `until static`"});
-    if (settings_.direction > 0 && settings_.stop_value >= 1)
-      throw_user_error({reader.who(), "axial_strain", fmt::format("{:g}", settings_.stop_value), "be < 1",
-                        "it is a fraction: 15 % is 0.15"});
-  } else if (condition == "cycles") {
-    settings_.stop = servo::Stop::kCycles;
-    settings_.stop_value = static_cast<double>(reader.positive_integer("cycles"));
-    if (settings_.path != servo::Path::kCyclic)
-      throw_user_error({reader.who(), "until", condition, "go with cyclic", ""});
-  } else {
-    throw_user_error({reader.who(), "until", condition, "be target, static, axial_strain or cycles", ""});
-  }
 }
 
 void FixStressServo::post_create() {
@@ -218,15 +96,16 @@ void FixStressServo::init() {
   const auto grains = suffuse::grain_statistics(lmp, groupbit);
   density_ = grains.mean_density;
   solid_volume_ = grains.solid_volume;
-  if (diameter_kind_ == MeanDiameter::kMass) diameter_ = grains.mass_mean_diameter;
-  if (diameter_kind_ == MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
+  diameter_ = arguments_.diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::kMass) diameter_ = grains.mass_mean_diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
   set_static_window();
 }
 
 void FixStressServo::set_static_window() {
   const auto elastic = suffuse::elastic_constants(lmp);
-  if (window_steps_ > 0) {
-    window_ = static_cast<double>(window_steps_) * update->dt;
+  if (arguments_.window_steps > 0) {
+    window_ = static_cast<double>(arguments_.window_steps) * update->dt;
   } else if (elastic.known) {
     const auto grains = suffuse::grain_statistics(lmp, groupbit);
     const double rayleigh = mm::rayleigh_time(
@@ -236,7 +115,7 @@ void FixStressServo::set_static_window() {
     window_ = 20000 * update->dt;
   }
   const double steps = window_ / update->dt / kSamplesPerWindow;
-  network_every_ = std::max<bigint>(1, static_cast<bigint>(steps) / every_) * every_;
+  network_every_ = std::max<bigint>(1, static_cast<bigint>(steps) / arguments_.every) * arguments_.every;
 }
 
 void FixStressServo::reset_dt() {
@@ -251,16 +130,18 @@ void FixStressServo::setup(int) {
     state_.reference_lengths = Vec3(domain->xprd, domain->yprd, domain->zprd);
   restored_ = false;
   stop_step_ = -1;
-  started_ = last_progress_ = MPI_Wtime();
-  strain_at_start_ =
-      servo::axial_strain(state_, Vec3(domain->xprd, domain->yprd, domain->zprd), settings_.axis);
+  last_progress_ = MPI_Wtime();
+  last_progress_step_ = update->ntimestep;
+  last_progress_stress_ = servo::mean_stress(stress_);
+  last_progress_strain_ = std::abs(
+      servo::axial_strain(state_, Vec3(domain->xprd, domain->yprd, domain->zprd), arguments_.settings.axis));
   schedule();
 }
 
 /// Asks for the virial at the next control step and for contacts at the next sample of the network.
 void FixStressServo::schedule() {
   const bigint step = update->ntimestep;
-  pressure_->addstep((step / every_ + 1) * every_);
+  pressure_->addstep((step / arguments_.every + 1) * arguments_.every);
   sampler_->request((step / network_every_ + 1) * network_every_);
 }
 
@@ -295,12 +176,13 @@ void FixStressServo::measure_network() {
   bulk_stiffness_ = mm::voigt_bulk_modulus(sums[2], packing.volume);
   unbalanced_ = sums[3] > 0 ? (sums[4] / sums[0]) / (sums[3] / sums[1]) : 0;
   is_static_ = servo::sample_static(static_window_, static_cast<double>(update->ntimestep) * update->dt,
-                                    servo::mean_stress(stress_), coordination_, window_, settings_.tolerance);
+                                    servo::mean_stress(stress_), coordination_, window_,
+                                    arguments_.settings.tolerance);
 }
 
 void FixStressServo::end_of_step() {
   const bigint step = update->ntimestep;
-  if (step % every_ == 0) {
+  if (step % arguments_.every == 0) {
     measure_stress();
     if (step % network_every_ == 0) measure_network();
     control();
@@ -315,15 +197,15 @@ void FixStressServo::end_of_step() {
 }
 
 double FixStressServo::inertial_time() const {
-  double reference = settings_.target;
-  if (settings_.path == servo::Path::kConstantVolume)
+  double reference = arguments_.settings.target;
+  if (arguments_.settings.path == servo::Path::kConstantVolume)
     reference = std::max(servo::mean_stress(stress_), 1e-3 * bulk_stiffness_);
   return diameter_ * std::sqrt(density_ / std::max(reference, 1.0));
 }
 
 void FixStressServo::control() {
   servo::Measurement m;
-  m.interval = static_cast<double>(every_) * update->dt;
+  m.interval = static_cast<double>(arguments_.every) * update->dt;
   m.stress = stress_;
   m.lengths = Vec3(domain->xprd, domain->yprd, domain->zprd);
   m.bulk_stiffness = bulk_stiffness_;
@@ -331,16 +213,17 @@ void FixStressServo::control() {
   m.relaxation_time = kRelaxationIntervals * m.interval;
   m.is_static = is_static_ && state_.phase == servo::Phase::kHolding;
   const servo::Phase before = state_.phase;
-  state_ = servo::control(settings_, state_, m);
+  state_ = servo::control(arguments_.settings, state_, m);
   if (state_.phase == servo::Phase::kDone && before != servo::Phase::kDone) announce_stop();
 
-  const double quasi_static = settings_.inertial_number / m.inertial_time;
-  if (!rate_note_given_ && settings_.axial_rate > quasi_static && state_.phase == servo::Phase::kHolding) {
+  const double quasi_static = arguments_.settings.inertial_number / m.inertial_time;
+  if (!rate_note_given_ && arguments_.settings.axial_rate > quasi_static &&
+      state_.phase == servo::Phase::kHolding) {
     rate_note_given_ = true;
     if (comm->me == 0 && screen != nullptr)
       fmt::print(screen,
                  "fix stress/servo {}: axial rate {:g} 1/s limited to {:.4g} 1/s by inertial_number {:g}\n",
-                 id, settings_.axial_rate, quasi_static, settings_.inertial_number);
+                 id, arguments_.settings.axial_rate, quasi_static, arguments_.settings.inertial_number);
   }
 }
 
@@ -381,7 +264,8 @@ double FixStressServo::void_ratio() const {
 
 double FixStressServo::inertial_number() const {
   const double p = servo::mean_stress(stress_);
-  const double reference = p > 0.01 * settings_.target && p > 0 ? p : std::max(settings_.target, 1.0);
+  const double reference =
+      p > 0.01 * arguments_.settings.target && p > 0 ? p : std::max(arguments_.settings.target, 1.0);
   return state_.rate.cwiseAbs().maxCoeff() * diameter_ * std::sqrt(density_ / reference);
 }
 
@@ -395,11 +279,11 @@ double FixStressServo::compute_vector(int n) {
     case 0:
       return servo::mean_stress(stress_);
     case 1:
-      return servo::deviatoric_stress(stress_, settings_.axis);
+      return servo::deviatoric_stress(stress_, arguments_.settings.axis);
     case 2:
       return void_ratio();
     case 3:
-      return servo::axial_strain(state_, lengths, settings_.axis);
+      return servo::axial_strain(state_, lengths, arguments_.settings.axis);
     case 4:
       return servo::volumetric_strain(state_, lengths);
     case 5:
@@ -429,40 +313,58 @@ double FixStressServo::compute_vector(int n) {
   }
 }
 
+/// Wall-clock minutes until the stop condition, extrapolated from the last progress line; negative if nothing
+/// tells.
+double FixStressServo::minutes_left(double strain, double since_last) const {
+  const double steps = static_cast<double>(update->ntimestep - last_progress_step_);
+  if (steps <= 0) return -1;
+  const double seconds_per_step = since_last / steps;
+  const double by_run = seconds_per_step * static_cast<double>(update->laststep - update->ntimestep);
+  double by_goal = by_run;
+  if (state_.phase == servo::Phase::kApproaching) {
+    const double gained = servo::mean_stress(stress_) - last_progress_stress_;
+    if (gained <= 0) return -1;
+    by_goal = since_last * (arguments_.settings.target - servo::mean_stress(stress_)) / gained;
+  } else if (arguments_.settings.stop == servo::Stop::kAxialStrain) {
+    const double gained = std::abs(strain) - last_progress_strain_;
+    if (gained <= 0) return -1;
+    by_goal = since_last * (arguments_.settings.stop_value - std::abs(strain)) / gained;
+  } else if (arguments_.settings.stop == servo::Stop::kStatic) {
+    const double waited = static_cast<double>(update->ntimestep) * update->dt - static_window_.start;
+    by_goal = seconds_per_step * (window_ - waited) / update->dt;
+  }
+  return std::max(0.0, std::min(by_goal, by_run)) / 60;
+}
+
 void FixStressServo::report_progress() {
-  if (progress_every_ <= 0 || comm->me != 0 || screen == nullptr) return;
-  const double now = MPI_Wtime();
-  if (now - last_progress_ < progress_every_) return;
-  last_progress_ = now;
+  if (arguments_.progress_every <= 0 || comm->me != 0 || screen == nullptr) return;
+  const double since_last = MPI_Wtime() - last_progress_;
+  if (since_last < arguments_.progress_every) return;
 
   static constexpr std::array<const char*, 3> kPhases{"approaching", "holding", "done"};
-  const Vec3 lengths(domain->xprd, domain->yprd, domain->zprd);
-  const double strain = servo::axial_strain(state_, lengths, settings_.axis);
-  double done = static_cast<double>(update->ntimestep - update->firststep) / std::max(1, update->nsteps);
-  const char* bound = "at most ";
-  if (settings_.stop == servo::Stop::kAxialStrain && state_.phase == servo::Phase::kHolding) {
-    const double by_strain =
-        (std::abs(strain) - std::abs(strain_at_start_)) / (settings_.stop_value - std::abs(strain_at_start_));
-    if (by_strain >= done) {
-      done = by_strain;
-      bound = "";
-    }
-  }
-  const double left = done > 0 ? (now - started_) * (1 - done) / done : 0;
-  fmt::print(screen,
-             "fix stress/servo {}: step {}  {}  p' {:.4g} kPa  q {:.4g} kPa  e {:.4f}  Z {:.3f}  axial "
-             "strain {:.3f} %  "
-             "I {:.2g}  left {}{:.1f} min\n",
-             id, update->ntimestep, kPhases[static_cast<std::size_t>(state_.phase)],
-             servo::mean_stress(stress_) / 1e3, servo::deviatoric_stress(stress_, settings_.axis) / 1e3,
-             void_ratio(), coordination_, 100 * strain, inertial_number(), bound, left / 60);
+  const double strain =
+      servo::axial_strain(state_, Vec3(domain->xprd, domain->yprd, domain->zprd), arguments_.settings.axis);
+  const double minutes = minutes_left(strain, since_last);
+  fmt::print(
+      screen,
+      "fix stress/servo {}: step {}  {}  p' {:.4g} kPa  q {:.4g} kPa  e {:.4f}  Z {:.3f}  axial strain "
+      "{:.3f} %  I {:.2g}  left {}\n",
+      id, update->ntimestep, kPhases[static_cast<std::size_t>(state_.phase)],
+      servo::mean_stress(stress_) / 1e3, servo::deviatoric_stress(stress_, arguments_.settings.axis) / 1e3,
+      void_ratio(), coordination_, 100 * strain, inertial_number(),
+      minutes < 0 ? "unknown" : fmt::format("{:.1f} min", minutes));
   std::fflush(screen);
+  last_progress_ += since_last;
+  last_progress_step_ = update->ntimestep;
+  last_progress_stress_ = servo::mean_stress(stress_);
+  last_progress_strain_ = std::abs(strain);
 }
 
 /// Names the path and its target: a restart file's state is taken up only by the fix that wrote it.
 std::string FixStressServo::signature() const {
-  return fmt::format("{} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(settings_.path), settings_.target,
-                     settings_.axis, settings_.direction, settings_.deviator_low, settings_.deviator_high);
+  return fmt::format("{} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
+                     arguments_.settings.target, arguments_.settings.axis, arguments_.settings.direction,
+                     arguments_.settings.deviator_low, arguments_.settings.deviator_high);
 }
 
 std::vector<double> FixStressServo::pack() const {

@@ -13,8 +13,7 @@ FixStyle(stress/servo, FixStressServo)
 #include <vector>
 
 #include "fix.h"
-#include "kernels/stress_servo.h"
-#include "style_support.h"
+#include "servo_arguments.h"
 
 namespace LAMMPS_NS {
 
@@ -39,12 +38,6 @@ class FixStressServo : public Fix {
   void restart(char* buffer) override;
 
  private:
-  enum class MeanDiameter { kMass, kNumber, kGiven };
-
-  void read_path(suffuse::ArgumentReader& reader);
-  void read_shear_path(suffuse::ArgumentReader& reader, const std::string& name);
-  void read_option(suffuse::ArgumentReader& reader);
-  void read_stop(suffuse::ArgumentReader& reader);
   void set_static_window();
   void schedule();
   void measure_stress();
@@ -53,6 +46,7 @@ class FixStressServo : public Fix {
   void deform();
   void announce_stop();
   void report_progress();
+  double minutes_left(double strain, double since_last) const;
   double inertial_time() const;
   double inertial_number() const;
   double void_ratio() const;
@@ -60,7 +54,7 @@ class FixStressServo : public Fix {
   std::vector<double> pack() const;
   void unpack(const double* values);
 
-  suffuse::servo::Settings settings_;
+  suffuse::ServoArguments arguments_;
   suffuse::servo::State state_;
   suffuse::servo::StaticWindow static_window_;
   suffuse::Vec3 stress_ = suffuse::Vec3::Zero();  // normal stresses at the last control step, Pa
@@ -70,15 +64,12 @@ class FixStressServo : public Fix {
   double unbalanced_ = 0;  // mean resultant force on a grain over mean contact force
   bool is_static_ = false;
 
-  bigint every_ = 50;            // steps between control steps
   bigint network_every_ = 1000;  // steps between samples of the contact network
-  bigint window_steps_ = 0;      // of `static`; 0: from the Rayleigh time
   double window_ = 0;            // s
-  double progress_every_ = 30;   // s of wall clock; 0: never
-  double last_progress_ = 0;
-  double started_ = 0;  // wall clock at setup
-  double strain_at_start_ = 0;
-  MeanDiameter diameter_kind_ = MeanDiameter::kMass;
+  double last_progress_ = 0;     // wall clock, step, stress and strain of the last progress line
+  bigint last_progress_step_ = 0;
+  double last_progress_stress_ = 0;
+  double last_progress_strain_ = 0;
   double diameter_ = 0;
   double density_ = 0;
   double solid_volume_ = 0;

@@ -1,0 +1,139 @@
+#include "servo_arguments.h"
+
+#include <fmt/format.h>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse {
+namespace {
+
+constexpr const char* kKeywords =
+    "every, inertial_number, diameter, max_rate, tolerance, static_window, progress, until";
+
+int axis_index(const std::string& who, const std::string& word) {
+  if (word == "x") return 0;
+  if (word == "y") return 1;
+  if (word == "z") return 2;
+  throw_user_error({who, "axis", word, "be x, y or z", ""});
+}
+
+void read_shear_path(ArgumentReader& reader, const std::string& name, servo::Settings& settings) {
+  if (settings.path != servo::Path::kConstantVolume) settings.target = reader.positive("target stress");
+  bool bounds_given = false;
+  while (!reader.done()) {
+    if (reader.accept("axis")) {
+      settings.axis = axis_index(reader.who(), reader.word("axis"));
+    } else if (reader.accept("compression")) {
+      settings.direction = 1;
+    } else if (reader.accept("extension")) {
+      settings.direction = -1;
+    } else if (reader.accept("rate")) {
+      settings.axial_rate = reader.positive("axial strain rate");
+    } else if (name == "cyclic" && reader.accept("deviator")) {
+      settings.deviator_low = reader.number("lower bound of the deviator");
+      settings.deviator_high = reader.number("upper bound of the deviator");
+      bounds_given = true;
+    } else {
+      break;
+    }
+  }
+  if (settings.path != servo::Path::kCyclic) return;
+  if (!bounds_given || settings.deviator_low >= settings.deviator_high)
+    throw_user_error(
+        {reader.who(), "deviator",
+         bounds_given ? fmt::format("{:g} {:g}", settings.deviator_low, settings.deviator_high) : "none",
+         "be two bounds, lower < upper", "e.g. `deviator -20e3 40e3`"});
+}
+
+void read_path(ArgumentReader& reader, servo::Settings& settings) {
+  constexpr const char* kPaths = "isotropic, constant_p, triaxial, cyclic, constant_volume";
+  const std::string name = reader.word(fmt::format("stress path ({})", kPaths));
+  if (name == "isotropic") {
+    settings.path = servo::Path::kIsotropic;
+    settings.target = reader.positive("target mean stress");
+    return;
+  }
+  if (name == "constant_p")
+    settings.path = servo::Path::kConstantMean;
+  else if (name == "triaxial")
+    settings.path = servo::Path::kTriaxial;
+  else if (name == "cyclic")
+    settings.path = servo::Path::kCyclic;
+  else if (name == "constant_volume")
+    settings.path = servo::Path::kConstantVolume;
+  else
+    throw_user_error({reader.who(), "stress path", name, fmt::format("be one of: {}", kPaths), ""});
+  read_shear_path(reader, name, settings);
+}
+
+void read_stop(ArgumentReader& reader, servo::Settings& settings) {
+  const std::string condition = reader.word("stop condition (target, static, axial_strain or cycles)");
+  const bool shears = settings.path != servo::Path::kIsotropic;
+  if (condition == "target") {
+    settings.stop = servo::Stop::kTarget;
+  } else if (condition == "static") {
+    settings.stop = servo::Stop::kStatic;
+    if (shears)
+      throw_user_error({reader.who(), "until", "static", "go with isotropic",
+                        "a sheared sample is never static; use axial_strain"});
+  } else if (condition == "axial_strain") {
+    settings.stop = servo::Stop::kAxialStrain;
+    settings.stop_value = reader.positive("axial_strain");
+    if (!shears)
+      throw_user_error({reader.who(), "until", condition, "go with a shear path", "use `until static`"});
+    if (settings.direction > 0 && settings.stop_value >= 1)
+      throw_user_error({reader.who(), "axial_strain", fmt::format("{:g}", settings.stop_value), "be < 1",
+                        "it is a fraction: 15 % is 0.15"});
+  } else if (condition == "cycles") {
+    settings.stop = servo::Stop::kCycles;
+    settings.stop_value = static_cast<double>(reader.positive_integer("cycles"));
+    if (settings.path != servo::Path::kCyclic)
+      throw_user_error({reader.who(), "until", condition, "go with cyclic", ""});
+  } else {
+    throw_user_error({reader.who(), "until", condition, "be target, static, axial_strain or cycles", ""});
+  }
+}
+
+void read_option(ArgumentReader& reader, ServoArguments& arguments) {
+  const std::string key = reader.word("keyword");
+  if (key == "every") {
+    arguments.every = reader.positive_integer("every");
+  } else if (key == "inertial_number") {
+    arguments.settings.inertial_number = reader.positive("inertial_number");
+  } else if (key == "diameter") {
+    if (reader.accept("mass")) {
+      arguments.diameter_kind = MeanDiameter::kMass;
+    } else if (reader.accept("number")) {
+      arguments.diameter_kind = MeanDiameter::kNumber;
+    } else if (reader.next_is_number()) {
+      arguments.diameter_kind = MeanDiameter::kGiven;
+      arguments.diameter = reader.positive("diameter");
+    } else {
+      throw_user_error({reader.who(), "diameter", reader.word("diameter (mass, number or a value in m)"),
+                        "be mass, number or a value in m", ""});
+    }
+  } else if (key == "max_rate") {
+    arguments.settings.max_rate = reader.positive("max_rate");
+  } else if (key == "tolerance") {
+    arguments.settings.tolerance = reader.positive("tolerance");
+  } else if (key == "static_window") {
+    arguments.window_steps = reader.positive_integer("static_window");
+  } else if (key == "progress") {
+    arguments.progress_every = reader.number("progress");
+  } else if (key == "until") {
+    read_stop(reader, arguments.settings);
+  } else {
+    reader.unknown(key, kKeywords);
+  }
+}
+
+}  // namespace
+
+ServoArguments read_servo_arguments(ArgumentReader& reader) {
+  ServoArguments arguments;
+  read_path(reader, arguments.settings);
+  while (!reader.done()) read_option(reader, arguments);
+  return arguments;
+}
+
+}  // namespace suffuse

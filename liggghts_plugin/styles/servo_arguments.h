@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/stress_servo.h"
+#include "style_support.h"
+
+namespace suffuse {
+
+enum class MeanDiameter { kMass, kNumber, kGiven };
+
+/// What the words of a `fix stress/servo` line say.
+struct ServoArguments {
+  servo::Settings settings;
+  std::int64_t every = 50;        ///< steps between control steps
+  std::int64_t window_steps = 0;  ///< of `static`; 0: from the Rayleigh time
+  double progress_every = 30;     ///< s of wall clock between progress lines; 0: none
+  MeanDiameter diameter_kind = MeanDiameter::kMass;
+  double diameter = 0;  ///< m, if given
+};
+
+/// Reads them; throws UserError for whatever is wrong.
+ServoArguments read_servo_arguments(ArgumentReader& reader);
+
+}  // namespace suffuse
