@@ -73,8 +73,9 @@ class Program:
         folder = pathlib.Path(folder)
         script = folder / f"in.{name}"
         script.write_text(text)
-        done = subprocess.run([self.mpirun, str(self.ranks), self.suffuse, "-in", script.name, "-log", f"log.{name}", "-echo", "none"],
-                              cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+        launcher = [self.mpirun, str(self.ranks)] if self.ranks > 1 else []
+        done = subprocess.run(launcher + [self.suffuse, "-in", script.name, "-log", f"log.{name}", "-echo", "none"], cwd=folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
         return done.returncode, done.stdout.decode(errors="replace")
 
     def must_run(self, text, folder, name="scene", timeout=240):
