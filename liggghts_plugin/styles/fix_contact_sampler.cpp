@@ -12,6 +12,7 @@
 #include "modify.h"
 #include "pair_gran.h"
 #include "style_support.h"
+#include "suffuse/common/error.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -158,9 +159,16 @@ void FixContactSampler::init() {
   auto* property = dynamic_cast<FixPropertyGlobal*>(modify->find_fix_property(
       "coefficientFriction", "property/global", "peratomtypepair", types, types, style, false));
   if (property == nullptr) return;
-  for (int i = 0; i < types; ++i)
-    for (int j = 0; j < types; ++j)
-      friction_[static_cast<std::size_t>(i * types + j)] = property->compute_array(i, j);
+  for (int i = 0; i < types; ++i) {
+    for (int j = 0; j < types; ++j) {
+      const double coefficient = property->compute_array(i, j);
+      if (coefficient < 0)
+        suffuse::throw_user_error({"fix property/global", "coefficientFriction", std::to_string(coefficient),
+                                   "be >= 0",
+                                   "LIGGGHTS takes it as it is; sliding contacts have no meaning with it"});
+      friction_[static_cast<std::size_t>(i * types + j)] = coefficient;
+    }
+  }
 }
 
 void FixContactSampler::setup(int) {

@@ -36,6 +36,7 @@ CASES = [
     (SAMPLE + SERVO + "isotropic 200e3\nfix t all stress/servo isotropic 200e3\nrun 10\n", ["servos = 2", "unfix"]),
     (SAMPLE + SERVO + "isotropic 200e3\nfix d all deform 1 x erate -1\nrun 10\n", ["fix = d", "deform"]),
     (SAMPLE + "delete_atoms group all\n" + SERVO + "isotropic 200e3\nrun 10\n", ["group = all", "contain grains"]),
+    (SAMPLE.replace("coefficientFriction peratomtypepair 1 0.0", "coefficientFriction peratomtypepair 1 -0.3") + SERVO + "isotropic 200e3\nrun 1\n", ["coefficientFriction = -0.3", ">= 0"]),
     (SAMPLE + "dem_timestep rayleigh 0.1\n", ["dem_timestep", "pressure = missing"]),
     (SAMPLE + "dem_timestep rayleigh 2 pressure 1e5\n", ["share = 2", "<= 1"]),
     (SAMPLE + "dem_timestep rayleigh -1 pressure 1e5\n", ["share of the Rayleigh time = -1", "> 0"]),

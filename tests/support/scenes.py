@@ -70,12 +70,22 @@ class Program:
 
     def run(self, text, folder, name="scene", timeout=240):
         """Runs the script; returns (exit code, screen text)."""
-        folder = pathlib.Path(folder)
-        script = folder / f"in.{name}"
+        script = pathlib.Path(folder) / f"in.{name}"
         script.write_text(text)
+        return self.run_file(script.name, folder, [], f"log.{name}", timeout)
+
+    def run_scene(self, script, folder, variables, timeout=400):
+        """Runs a script file with `-var` options; returns the screen text."""
+        words = [str(word) for name, value in variables.items() for word in ("-var", name, value)]
+        code, screen = self.run_file(script, folder, words, "log.scene", timeout)
+        if code != 0:
+            sys.exit(f"{script} ended with code {code}:\n{screen[-3000:]}")
+        return screen
+
+    def run_file(self, script, folder, words, log, timeout):
         launcher = [self.mpirun, str(self.ranks)] if self.ranks > 1 else []
-        done = subprocess.run(launcher + [self.suffuse, "-in", script.name, "-log", f"log.{name}", "-echo", "none"], cwd=folder,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
+        command = launcher + [self.suffuse, "-in", str(script), "-log", log, "-echo", "none"] + words
+        done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
         return done.returncode, done.stdout.decode(errors="replace")
 
     def must_run(self, text, folder, name="scene", timeout=240):
