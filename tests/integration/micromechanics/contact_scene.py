@@ -70,7 +70,8 @@ class Suffuse:
     def run(self, ranks, script, name):
         """Runs the script; returns exit code, standard output and the text of standard error."""
         (self.folder / f"in.{name}").write_text(script)
-        done = subprocess.run([self.options.mpirun, str(ranks), self.options.suffuse, "-in", f"in.{name}", "-log", f"log.{name}"],
+        launcher = [self.options.mpirun, str(ranks)] if ranks > 1 else []
+        done = subprocess.run(launcher + [self.options.suffuse, "-in", f"in.{name}", "-log", f"log.{name}"],
                               cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240)
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
