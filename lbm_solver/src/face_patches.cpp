@@ -1,0 +1,166 @@
+#include "face_patches.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+/// The part of the sub-box whose cells lie in the given boundary layers: side[a] -1 low, +1 high, 0 the cells
+/// that are in neither layer named by `avoid[a]`.
+CellBox part_of(const Index3& cells, const Index3& side, const Index3& avoid) {
+  CellBox box{{0, 0, 0}, cells};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (side[a] < 0) box.hi[a] = 1;
+    if (side[a] > 0) box.lo[a] = cells[a] - 1;
+    if (side[a] == 0 && avoid[a] < 0) box.lo[a] = 1;
+    if (side[a] == 0 && avoid[a] > 0) box.hi[a] = cells[a] - 1;
+  }
+  return box;
+}
+
+bool needs_moments(const FaceCondition& condition, const FaceContext& context) {
+  if (condition.kind == FaceKind::pressure) return true;
+  return condition.kind == FaceKind::velocity && !context.incompressible && !condition.velocity.isZero(0);
+}
+
+}  // namespace
+
+template <class T>
+FacePatches<T>::FacePatches(const Decomposition& decomposition, const FaceConditions& faces) {
+  const Index3 cells = decomposition.local_box().extents();
+  for (int i = 1; i < kDirections; ++i) {
+    Index3 towards{0, 0, 0};  // the global faces that this direction can cross here
+    for (int a = 0; a < 3; ++a)
+      if (kVelocity[i][a] != 0 && decomposition.at_global_face(face_at(a, kVelocity[i][a] > 0)))
+        towards[static_cast<std::size_t>(a)] = kVelocity[i][a];
+    for (int subset = 1; subset < 8; ++subset) {
+      Index3 crossed{0, 0, 0};
+      bool possible = true;
+      for (std::size_t a = 0; a < 3; ++a)
+        if ((subset >> a & 1) != 0) {
+          crossed[a] = towards[a];
+          possible &= towards[a] != 0;
+        }
+      const CellBox box = part_of(cells, crossed, towards);
+      if (!possible || box.empty()) continue;
+      const LinkRule rule = link_rule(faces, crossed);
+      if (rule.action == LinkRule::Action::bounce || rule.action == LinkRule::Action::anti_bounce)
+        patches_.push_back({i, box, rule});
+    }
+  }
+  for (int f = 0; f < kFaces; ++f) {
+    const Face face = static_cast<Face>(f);
+    Index3 side{0, 0, 0};
+    side[static_cast<std::size_t>(axis_of(face))] = is_high(face) ? 1 : -1;
+    FaceMoments& moments = moments_[static_cast<std::size_t>(f)];
+    const FaceKind kind = faces[static_cast<std::size_t>(f)].kind;
+    if (!decomposition.at_global_face(face) || (kind != FaceKind::velocity && kind != FaceKind::pressure))
+      continue;
+    moments.cells = part_of(cells, side, {0, 0, 0});
+    moments.density.resize(moments.cells.volume());
+    for (auto& component : moments.velocity) component.resize(moments.cells.volume());
+  }
+}
+
+template <class T>
+template <bool kOddStep>
+void FacePatches<T>::read_moments(const Populations<T>& populations, const FaceContext& context,
+                                  FaceMoments& moments) const {
+  std::size_t n = 0;
+  std::ptrdiff_t offset[kDirections];
+  const T* place[kDirections];
+  for (int i = 0; i < kDirections; ++i) {
+    offset[i] = kOddStep ? populations.offset_of(i) : 0;
+    place[i] = populations.slot(kOddStep ? i : opposite(i)) + offset[i];
+  }
+  for_each_cell(moments.cells, [&](int x, int y, int z) {
+    const std::ptrdiff_t cell = populations.index(x, y, z);
+    double deviation = static_cast<double>(place[0][cell]), momentum[3] = {0, 0, 0};
+#pragma GCC unroll 9
+    for (int i = 1; i < kDirections; i += 2) {
+      const double forward = static_cast<double>(place[i][cell]),
+                   backward = static_cast<double>(place[i + 1][cell]);
+      deviation += forward + backward;
+      for (int a = 0; a < 3; ++a) momentum[a] += kVelocity[i][a] * (forward - backward);
+    }
+    // After the collision the momentum holds the whole force; the velocity is defined with half of it.
+    const double density = 1 + deviation, divisor = context.incompressible ? 1 : density;
+    moments.density[n] = density;
+    for (int a = 0; a < 3; ++a) moments.velocity[a][n] = (momentum[a] - 0.5 * context.force[a]) / divisor;
+    ++n;
+  });
+}
+
+template <class T>
+template <bool kOddStep>
+void FacePatches<T>::apply(Populations<T>& populations, const FaceConditions& faces,
+                           const FaceContext& context) {
+  for (int f = 0; f < kFaces; ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    if (!moments_[at].cells.empty() && needs_moments(faces[at], context))
+      read_moments<kOddStep>(populations, context, moments_[at]);
+  }
+  for (const Patch& patch : patches_) {
+    const int i = patch.direction;
+    const FaceCondition& one = faces[static_cast<std::size_t>(patch.rule.face)];
+    const FaceCondition& two = faces[static_cast<std::size_t>(patch.rule.other)];
+    const std::ptrdiff_t offset = populations.offset_of(i);
+    T* own = populations.slot(opposite(i));
+    T* beyond = populations.slot(i) + offset;
+    const T* from = kOddStep ? beyond : own;
+    T* to = kOddStep ? own : beyond;
+    const double w = kWeight[i];
+    const Vec3 c(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+
+    const bool still = one.kind == FaceKind::no_slip || (one.velocity.isZero(0) && two.velocity.isZero(0));
+    if (patch.rule.action == LinkRule::Action::bounce && still) {
+      for_each_cell(patch.cells, [&](int x, int y, int z) {
+        const std::ptrdiff_t cell = populations.index(x, y, z);
+        to[cell] = from[cell];
+      });
+      continue;
+    }
+    const FaceMoments& moments = moments_[static_cast<std::size_t>(patch.rule.face)];
+    const auto moment_index = [&](int x, int y, int z) {
+      const CellBox& b = moments.cells;
+      return static_cast<std::size_t>((x - b.lo[0]) +
+                                      b.extent(0) * ((y - b.lo[1]) + b.extent(1) * (z - b.lo[2])));
+    };
+    if (patch.rule.action == LinkRule::Action::bounce) {
+      const double push = 6 * w * c.dot(0.5 * (one.velocity + two.velocity));
+      const bool unit_density = context.incompressible;
+      for_each_cell(patch.cells, [&](int x, int y, int z) {
+        const std::ptrdiff_t cell = populations.index(x, y, z);
+        const double density = unit_density ? 1. : moments.density[moment_index(x, y, z)];
+        to[cell] = static_cast<T>(static_cast<double>(from[cell]) - density * push);
+      });
+    } else {
+      const double density = 0.5 * (one.density + two.density),
+                   inertial = context.incompressible ? 1. : density;
+      for_each_cell(patch.cells, [&](int x, int y, int z) {
+        const std::ptrdiff_t cell = populations.index(x, y, z);
+        const std::size_t n = moment_index(x, y, z);
+        const Vec3 u(moments.velocity[0][n], moments.velocity[1][n], moments.velocity[2][n]);
+        const double cu = c.dot(u);
+        const double even = (density - 1) + inertial * (4.5 * cu * cu - 1.5 * u.squaredNorm());
+        to[cell] = static_cast<T>(2 * w * even - static_cast<double>(from[cell]));
+      });
+    }
+  }
+}
+
+template <class T>
+void FacePatches<T>::fill(Populations<T>& populations, const FaceConditions& faces,
+                          const FaceContext& context) {
+  apply<false>(populations, faces, context);
+}
+
+template <class T>
+void FacePatches<T>::fold(Populations<T>& populations, const FaceConditions& faces,
+                          const FaceContext& context) {
+  apply<true>(populations, faces, context);
+}
+
+template class FacePatches<double>;
+template class FacePatches<float>;
+
+}  // namespace suffuse::lbm
