@@ -55,7 +55,9 @@ const Vec3& Fluid::force() const {
 void Fluid::step() {
   core_->step();
 }
-void Fluid::bare_update() { core_->bare_update(); }
+void Fluid::bare_update() {
+  core_->bare_update();
+}
 long Fluid::steps() const {
   return core_->steps;
 }

@@ -27,12 +27,15 @@ FluidCore<T>::FluidCore(const FluidSettings& s, const Decomposition& d)
     : FluidCoreBase(s, d), populations_(d.local_box().extents()), halo_(d, s.faces), patches_(d, s.faces) {}
 
 template <class T>
-KernelCall<T> FluidCore<T>::kernel_call() const {
+KernelCall<T> FluidCore<T>::kernel_call() {
   const CollisionSettings& c = settings.collision;
   const double half = c.relaxation_time - 0.5;
   const bool single = c.collision_operator == CollisionOperator::bgk;
   KernelCall<T> call{};
-  for (int i = 0; i < kDirections; ++i) call.slot[i] = const_cast<T*>(populations_.slot(i));
+  // AA pattern. Even step: each direction from the cell's own slot. Odd step: from the neighbour it comes
+  // from, where the even step left it in the slot of the opposite direction.
+  for (int i = 0; i < kDirections; ++i)
+    call.place[i] = odd ? populations_.slot(opposite(i)) - populations_.offset_of(i) : populations_.slot(i);
   call.row_pitch = populations_.row_pitch();
   call.plane_pitch = populations_.plane_pitch();
   call.cells_x = populations_.cells()[0];
@@ -44,6 +47,7 @@ KernelCall<T> FluidCore<T>::kernel_call() const {
   call.magic = static_cast<T>(c.magic);
   call.single_rate = single;
   call.eddy_coefficient = static_cast<T>(18 * std::sqrt(2.) * c.smagorinsky * c.smagorinsky);
+  call.compressibility = c.incompressible ? T(0) : T(1);
   for (int a = 0; a < 3; ++a) call.force[a] = static_cast<T>(force[a]);
   call.solid = labels_ ? labels_->data() : nullptr;
   return call;
@@ -52,12 +56,8 @@ KernelCall<T> FluidCore<T>::kernel_call() const {
 template <class T>
 void FluidCore<T>::step() {
   const CollisionSettings& c = settings.collision;
-  const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments,
-                              !force.isZero(0),
-                              c.smagorinsky > 0,
-                              c.incompressible,
-                              labels_ != nullptr,
-                              odd};
+  const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
+                              c.smagorinsky > 0, labels_ != nullptr};
   kernel_for<T>(instruction_set, variant)(kernel_call());
   const FaceContext context{force, c.incompressible};
   // Exchange first: it copies ghost cells that walls and solids then overwrite with what really enters.

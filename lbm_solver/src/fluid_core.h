@@ -54,7 +54,7 @@ class FluidCore final : public FluidCoreBase {
   std::size_t bytes() const override { return populations_.bytes() + (labels_ ? labels_->bytes() : 0); }
 
  private:
-  KernelCall<T> kernel_call() const;
+  KernelCall<T> kernel_call();
   std::ptrdiff_t place(int direction, int x, int y, int z) const;
 
   Populations<T> populations_;

@@ -60,7 +60,9 @@ struct CentralMoments {
       ja = ja - T(0.5) * cell.force[a];
       jb = jb - T(0.5) * cell.force[b];
     }
-    const V maa = T(1. / 3) + second_a, mbb = T(1. / 3) + second_b;
+    // Whole second moments: the weights' (1/3 of the density) and the deviation from it.
+    const V maa = T(1. / 3) * (cell.density - cell.density_deviation) + second_a;
+    const V mbb = T(1. / 3) * (cell.density - cell.density_deviation) + second_b;
     const V central_a =
         m.third_a - T(2) * v * m.shear + vv * ja - u * mbb + T(2) * uv * jb - u * vv * cell.density;
     const V central_b =

@@ -8,10 +8,10 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 /// A pack of cells before its collision, in lattice units.
 template <class T>
 struct CellPack {
-  Pack<T> density_deviation;  ///< rho - 1 as the equilibrium sees it (zero with the incompressible one)
-  Pack<T> density;            ///< rho as the equilibrium sees it
-  Pack<T> velocity[3];        ///< half of the force included
-  Pack<T> force[3];           ///< read only by kernels compiled with a force
+  Pack<T> density_deviation;  ///< rho - 1
+  Pack<T> density;  ///< rho; one with He & Luo's incompressible equilibrium, which differs in nothing else
+  Pack<T> velocity[3];  ///< half of the force included
+  Pack<T> force[3];     ///< read only by kernels compiled with a force
 };
 
 /// c . v for a compile-time direction.
@@ -43,19 +43,6 @@ template <class T>
 /// equal ones; docs key: ginzburg2008), with Guo's force term split the same way (docs key: guo2002).
 template <bool kForced, bool kEddy>
 struct TwoRates {
-  template <class T>
-  struct PairEquilibrium {
-    Pack<T> even, odd;
-  };
-
-  template <int Direction, class T>
-  [[gnu::always_inline]] static PairEquilibrium<T> equilibrium(const CellPack<T>& cell, const Pack<T>& u2) {
-    constexpr T w = static_cast<T>(kWeight[Direction]);
-    const Pack<T> cu = along<Direction>(cell.velocity);
-    return {w * (cell.density_deviation + cell.density * (T(4.5) * cu * cu - u2)),
-            (T(3) * w) * (cell.density * cu)};
-  }
-
   /// Sum over all directions of Q_ab^2 with Q = sum c c (f - feq), the force's own share taken out.
   template <class T>
   [[gnu::always_inline]] static Pack<T> stress_squared(const Pack<T> (&g)[kDirections],
@@ -87,52 +74,70 @@ struct TwoRates {
                    tangential[2] * tangential[2]);
   }
 
+  /// What all pairs share. With s and d the sum and difference of a pair, the pair after the collision is E +
+  /// O and E - O with E = keep_even s + ..., O = keep_odd d + ...
+  template <class T>
+  struct Shared {
+    Pack<T> even_rate, odd_rate, keep_even, keep_odd;
+    Pack<T> isotropic;              ///< rho - 1 - 3/2 rho u^2
+    Pack<T> quadratic;              ///< 9/2 rho
+    Pack<T> even_force, odd_force;  ///< 1 - rate/2
+    Pack<T> velocity_force;         ///< 3 u.F
+  };
+
   template <int Direction, class T>
   [[gnu::always_inline]] static void relax_pair(Pack<T> (&g)[kDirections], const CellPack<T>& cell,
-                                                const Pack<T>& u2, const Pack<T>& uf,
-                                                const Pack<T>& even_rate, const Pack<T>& odd_rate) {
+                                                const Shared<T>& shared) {
     constexpr T w = static_cast<T>(kWeight[Direction]);
-    const PairEquilibrium<T> eq = equilibrium<Direction, T>(cell, u2);
-    const Pack<T> forward = g[Direction], backward = g[Direction + 1];
-    Pack<T> even = even_rate * (eq.even - T(0.5) * (forward + backward));
-    Pack<T> odd = odd_rate * (eq.odd - T(0.5) * (forward - backward));
+    const Pack<T> sum = g[Direction] + g[Direction + 1], difference = g[Direction] - g[Direction + 1];
+    const Pack<T> cu = along<Direction>(cell.velocity);
+    Pack<T> even =
+        shared.keep_even * sum + (w * shared.even_rate) * ((shared.quadratic * cu) * cu + shared.isotropic);
+    Pack<T> odd = shared.keep_odd * difference + ((T(3) * w) * shared.odd_rate) * (cell.density * cu);
     if constexpr (kForced) {
       const Pack<T> cf = along<Direction>(cell.force);
-      const Pack<T> cu = along<Direction>(cell.velocity);
-      even = even + (T(1) - T(0.5) * even_rate) * (w * (T(9) * cu * cf - uf));
-      odd = odd + (T(1) - T(0.5) * odd_rate) * ((T(3) * w) * cf);
+      even = even + (w * shared.even_force) * ((T(9) * cu) * cf - shared.velocity_force);
+      odd = odd + ((T(3) * w) * shared.odd_force) * cf;
     }
-    g[Direction] = forward + even + odd;
-    g[Direction + 1] = backward + even - odd;
+    g[Direction] = even + odd;
+    g[Direction + 1] = even - odd;
   }
 
   template <class T>
   [[gnu::always_inline]] static void collide(Pack<T> (&g)[kDirections], const CellPack<T>& cell,
                                              const KernelCall<T>& call) {
     const auto& u = cell.velocity;
-    Pack<T> even_rate = broadcast<T>(call.even_rate), odd_rate = broadcast<T>(call.odd_rate);
+    Shared<T> shared;
+    shared.even_rate = broadcast<T>(call.even_rate);
+    shared.odd_rate = broadcast<T>(call.odd_rate);
     if constexpr (kEddy) {
       const Pack<T> tau = eddy_relaxation_time<T>(call, stress_squared<T>(g, cell), cell.density);
-      even_rate = T(1) / tau;
+      shared.even_rate = T(1) / tau;
       const Pack<T> half = tau - T(0.5);
-      odd_rate = call.single_rate ? even_rate : half / (T(0.5) * half + call.magic);
+      shared.odd_rate = call.single_rate ? shared.even_rate : half / (T(0.5) * half + call.magic);
     }
-    const Pack<T> u2 = T(1.5) * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-    Pack<T> uf{};
-    if constexpr (kForced) uf = T(3) * (u[0] * cell.force[0] + u[1] * cell.force[1] + u[2] * cell.force[2]);
+    shared.keep_even = T(0.5) - T(0.5) * shared.even_rate;
+    shared.keep_odd = T(0.5) - T(0.5) * shared.odd_rate;
+    const Pack<T> u2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    shared.quadratic = T(4.5) * cell.density;
+    shared.isotropic = cell.density_deviation - (T(1.5) * cell.density) * u2;
     constexpr T w0 = static_cast<T>(kWeight[0]);
-    Pack<T> rest = even_rate * (w0 * (cell.density_deviation - cell.density * u2) - g[0]);
-    if constexpr (kForced) rest = rest - (T(1) - T(0.5) * even_rate) * (w0 * uf);
-    g[0] = g[0] + rest;
-    relax_pair<1, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<3, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<5, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<7, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<9, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<11, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<13, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<15, T>(g, cell, u2, uf, even_rate, odd_rate);
-    relax_pair<17, T>(g, cell, u2, uf, even_rate, odd_rate);
+    g[0] = (T(1) - shared.even_rate) * g[0] + (w0 * shared.even_rate) * shared.isotropic;
+    if constexpr (kForced) {
+      shared.even_force = T(1) - T(0.5) * shared.even_rate;
+      shared.odd_force = T(1) - T(0.5) * shared.odd_rate;
+      shared.velocity_force = T(3) * (u[0] * cell.force[0] + u[1] * cell.force[1] + u[2] * cell.force[2]);
+      g[0] = g[0] - (w0 * shared.even_force) * shared.velocity_force;
+    }
+    relax_pair<1, T>(g, cell, shared);
+    relax_pair<3, T>(g, cell, shared);
+    relax_pair<5, T>(g, cell, shared);
+    relax_pair<7, T>(g, cell, shared);
+    relax_pair<9, T>(g, cell, shared);
+    relax_pair<11, T>(g, cell, shared);
+    relax_pair<13, T>(g, cell, shared);
+    relax_pair<15, T>(g, cell, shared);
+    relax_pair<17, T>(g, cell, shared);
   }
 };
 

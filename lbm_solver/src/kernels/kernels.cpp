@@ -9,25 +9,26 @@ namespace {
 
 using Storage = SUFFUSE_KERNEL_STORAGE;
 
+template <bool kCentralMoments, bool kForced, bool kEddy>
+struct OperatorOf {
+  using Type = TwoRates<kForced, kEddy>;
+};
+template <bool kForced, bool kEddy>
+struct OperatorOf<true, kForced, kEddy> {
+  using Type = CentralMoments<kForced, kEddy>;
+};
+
 template <int kIndex>
 void run_variant(const KernelCall<Storage>& call) {
   constexpr KernelVariant v = variant_of(kIndex);
-  // A lookup by type: the operator and the solid policy are the only places where variants differ in kind.
-  if constexpr (v.central_moments && v.solid_mask)
-    stream_collide<Storage, CentralMoments<v.forced, v.eddy_viscosity>, SolidMask, v.forced, v.incompressible,
-                   v.odd_step>(call);
-  else if constexpr (v.central_moments)
-    stream_collide<Storage, CentralMoments<v.forced, v.eddy_viscosity>, NoSolid, v.forced, v.incompressible,
-                   v.odd_step>(call);
-  else if constexpr (v.solid_mask)
-    stream_collide<Storage, TwoRates<v.forced, v.eddy_viscosity>, SolidMask, v.forced, v.incompressible,
-                   v.odd_step>(call);
+  using Operator = typename OperatorOf<v.central_moments, v.forced, v.eddy_viscosity>::Type;
+  if constexpr (v.solid_mask)
+    stream_collide<Storage, Operator, SolidMask, v.forced>(call);
   else
-    stream_collide<Storage, TwoRates<v.forced, v.eddy_viscosity>, NoSolid, v.forced, v.incompressible,
-                   v.odd_step>(call);
+    stream_collide<Storage, Operator, NoSolid, v.forced>(call);
 }
 
-/// Fills the entries with the parity that this file is compiled for.
+/// Fills the entries that this file is compiled for.
 template <int kIndex>
 void fill(Kernel<Storage>* table) {
   if constexpr (kIndex < kKernelVariants) {
@@ -56,7 +57,7 @@ void bare_update(const KernelCall<Storage>& call) {
       for (int x = 0; x + width <= call.cells_x; x += width) {
 #pragma GCC unroll 19
         for (int i = 0; i < kDirections; ++i) {
-          Storage* place = call.slot[i] + row + x;
+          Storage* place = call.place[i] + row + x;
           store<Storage>(place, load<Storage>(place) * call.even_rate + call.force[0]);
         }
       }

@@ -2,8 +2,8 @@
 
 /// A few numbers side by side in one vector register, for whatever instruction set this file is compiled for.
 ///
-/// GCC's vector extension gives + - * / and comparison; this adds unaligned access, square root and a partial
-/// store. The namespace is named after the instruction set, so that no function compiled for a wide one can
+/// GCC's vector extension gives + - * / and comparison; this adds unaligned access and a square
+/// root. The namespace is named after the instruction set, so that no function compiled for a wide one can
 /// be taken by the linker for another's; for the same reason no standard library template is used in these
 /// files.
 
@@ -45,11 +45,6 @@ template <class T>
 template <class T>
 [[gnu::always_inline]] inline void store(T* to, const Pack<T>& value) {
   *reinterpret_cast<typename PackTypes<T>::Unaligned*>(to) = value;
-}
-
-template <class T>
-[[gnu::always_inline]] inline void store_first(T* to, const Pack<T>& value, int lanes) {
-  for (int lane = 0; lane < lanes; ++lane) to[lane] = value[lane];
 }
 
 template <class T>
