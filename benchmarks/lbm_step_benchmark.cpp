@@ -4,7 +4,8 @@
 //   mpirun -np 2 lbm_step_benchmark                       one rank a core; the box is shared out
 //   SUFFUSE_INSTRUCTION_SET=avx2 lbm_step_benchmark       another kernel
 //
-// Counters: share = time of the bare update / time of a step (1 is the memory's limit), MLUPS of both, bytes a cell.
+// Counters: share = time of the bare update / time of a step (1 is the memory's limit), MLUPS of both, bytes
+// a cell.
 #include <benchmark/benchmark.h>
 #include <mpi.h>
 
@@ -79,7 +80,8 @@ std::vector<Scene> scenes() {
     scene.settings.precision = precision;
     scene.settings.faces = walls_and_pressures();
     change(scene);
-    scene.name = what + (precision == Precision::double_precision ? "/double/" : "/float/") + std::to_string(size);
+    scene.name =
+        what + (precision == Precision::double_precision ? "/double/" : "/float/") + std::to_string(size);
     all.push_back(scene);
   };
   const auto as_it_is = [](Scene&) {};
@@ -88,7 +90,8 @@ std::vector<Scene> scenes() {
     add("trt_periodic", 128, precision, [](Scene& s) { s.settings.faces = FaceConditions{}; });
     add("trt_force", 128, precision, [](Scene& s) { s.force = Vec3(0, 0, 1e-6); });
     add("trt_incompressible", 128, precision, [](Scene& s) { s.settings.collision.incompressible = true; });
-    add("bgk", 128, precision, [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::bgk; });
+    add("bgk", 128, precision,
+        [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::bgk; });
     add("trt_smagorinsky", 128, precision, [](Scene& s) { s.settings.collision.smagorinsky = 0.1; });
     add("central_moments", 128, precision,
         [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::central_moments; });

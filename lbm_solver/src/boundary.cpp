@@ -130,9 +130,11 @@ LinkRule link_rule(const FaceConditions& faces, const Index3& crossed) {
     }
   }
   constexpr LinkRule::Action actions[] = {LinkRule::Action::stream, LinkRule::Action::mirror,
-                                          LinkRule::Action::anti_bounce, LinkRule::Action::bounce,
+                                          LinkRule::Action::extend, LinkRule::Action::bounce,
                                           LinkRule::Action::bounce};
   rule.action = actions[strongest];
+  if (rule.action == LinkRule::Action::extend && rule.face != rule.other)
+    rule.action = LinkRule::Action::anti_bounce;
   return rule;
 }
 

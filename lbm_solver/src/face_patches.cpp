@@ -63,8 +63,8 @@ FacePatches<T>::FacePatches(const Decomposition& decomposition, const FaceCondit
 
 template <class T>
 template <bool kOddStep>
-void FacePatches<T>::read_moments(const Populations<T>& populations, const FaceContext& context,
-                                  FaceMoments& moments) const {
+void FacePatches<T>::read_moments_of(FaceMoments& moments, const Populations<T>& populations,
+                                     const FaceContext& context) const {
   std::size_t n = 0;
   std::ptrdiff_t offset[kDirections];
   const T* place[kDirections];
@@ -91,14 +91,69 @@ void FacePatches<T>::read_moments(const Populations<T>& populations, const FaceC
 }
 
 template <class T>
+void FacePatches<T>::read_moments(const Populations<T>& populations, const FaceConditions& faces,
+                                  const FaceContext& context, bool after_odd_step) {
+  for (std::size_t f = 0; f < kFaces; ++f) {
+    if (moments_[f].cells.empty() || !needs_moments(faces[f], context)) continue;
+    if (after_odd_step)
+      read_moments_of<true>(moments_[f], populations, context);
+    else
+      read_moments_of<false>(moments_[f], populations, context);
+  }
+}
+
+template <class T>
+template <bool kOddStep>
+void FacePatches<T>::extend(Populations<T>& populations, const FaceConditions& faces,
+                            const FaceContext& context) const {
+  for (std::size_t f = 0; f < kFaces; ++f) {
+    const FaceMoments& moments = moments_[f];
+    if (moments.cells.empty() || faces[f].kind != FaceKind::pressure) continue;
+    const int axis = static_cast<int>(f) / 2, outward = f % 2 == 1 ? 1 : -1;
+    Index3 step{0, 0, 0};
+    step[static_cast<std::size_t>(axis)] = outward;
+    const std::ptrdiff_t beyond = populations.index(step[0], step[1], step[2]);
+    for (int j = 1; j < kDirections; ++j) {
+      if (kVelocity[j][axis] != -outward) continue;
+      // After an even step direction j of cell y lies in y's slot of the opposite direction and is wanted one
+      // cell further out; after an odd step it lies at y + c_j in slot j and, again, is wanted one cell
+      // further out.
+      T* slot = kOddStep ? populations.slot(j) + populations.offset_of(j) : populations.slot(opposite(j));
+      const double w = kWeight[j];
+      const Vec3 c(kVelocity[j][0], kVelocity[j][1], kVelocity[j][2]);
+      std::size_t n = 0;
+      for_each_cell(moments.cells, [&](int x, int y, int z) {
+        const std::ptrdiff_t cell = populations.index(x, y, z);
+        double shape = w;
+        if (!context.incompressible) {
+          const Vec3 u(moments.velocity[0][n], moments.velocity[1][n], moments.velocity[2][n]);
+          const double cu = c.dot(u);
+          shape *= 1 + 3 * cu + 4.5 * cu * cu - 1.5 * u.squaredNorm();
+        }
+        slot[cell + beyond] = static_cast<T>(static_cast<double>(slot[cell]) +
+                                             2 * (faces[f].density - moments.density[n]) * shape);
+        ++n;
+      });
+    }
+  }
+}
+
+template <class T>
+void FacePatches<T>::extend_fill(Populations<T>& populations, const FaceConditions& faces,
+                                 const FaceContext& context) const {
+  extend<false>(populations, faces, context);
+}
+
+template <class T>
+void FacePatches<T>::extend_fold(Populations<T>& populations, const FaceConditions& faces,
+                                 const FaceContext& context) const {
+  extend<true>(populations, faces, context);
+}
+
+template <class T>
 template <bool kOddStep>
 void FacePatches<T>::apply(Populations<T>& populations, const FaceConditions& faces,
                            const FaceContext& context) {
-  for (int f = 0; f < kFaces; ++f) {
-    const auto at = static_cast<std::size_t>(f);
-    if (!moments_[at].cells.empty() && needs_moments(faces[at], context))
-      read_moments<kOddStep>(populations, context, moments_[at]);
-  }
   for (const Patch& patch : patches_) {
     const int i = patch.direction;
     const FaceCondition& one = faces[static_cast<std::size_t>(patch.rule.face)];

@@ -14,15 +14,33 @@ struct FaceContext {
   bool incompressible = false;
 };
 
-/// The rules that send a population back into the cell it left (walls, velocity and pressure faces), for the
-/// faces of the whole box that this rank holds. Edges and corners follow link_rule().
+/// /// What enters through the faces of the whole box that this rank holds, other than by streaming and
+/// mirrors. Edges and corners follow link_rule().
 ///
-/// A link of cell x in direction i leads out of the box. Its two places are (x + c_i, slot i), where an odd
-/// step puts what leaves and looks for what enters, and (x, slot opposite(i)), where an even step does.
+/// Pressure faces (`extend`): the ghost cell beyond face cell y holds y's populations, shifted by the
+/// equilibrium of the density difference, f*_j(ghost) = f*_j(y) + feq_j(2 rho_face - rho_y, u_y) -
+/// feq_j(rho_y, u_y): the density is linear across the face, velocity and stress are those of y. Plain
+/// anti-bounce-back drops the shear stress at the face and bends the pressure over a width of the channel
+/// (docs/decisions/fluid-pressure-faces.md).
+///
+/// Walls and velocities (`fill`, `fold`): bounce-back. A link of cell x in direction i leads out of the box.
+/// Its two places are (x + c_i, slot i), where an odd step puts what leaves and looks for what enters, and
+/// (x, slot opposite(i)), where an even step does.
 template <class T>
 class FacePatches {
  public:
   FacePatches(const Decomposition& decomposition, const FaceConditions& faces);
+
+  /// Density and velocity of the cells at velocity and pressure faces, straight after a collision; first of
+  /// all.
+  void read_moments(const Populations<T>& populations, const FaceConditions& faces,
+                    const FaceContext& context, bool after_odd_step);
+
+  /// Pressure faces, before the halo exchange.
+  void extend_fill(Populations<T>& populations, const FaceConditions& faces,
+                   const FaceContext& context) const;
+  void extend_fold(Populations<T>& populations, const FaceConditions& faces,
+                   const FaceContext& context) const;
 
   /// After an even step: puts what enters where the odd step will look for it.
   void fill(Populations<T>& populations, const FaceConditions& faces, const FaceContext& context);
@@ -45,8 +63,10 @@ class FacePatches {
   template <bool kOddStep>
   void apply(Populations<T>& populations, const FaceConditions& faces, const FaceContext& context);
   template <bool kOddStep>
-  void read_moments(const Populations<T>& populations, const FaceContext& context,
-                    FaceMoments& moments) const;
+  void read_moments_of(FaceMoments& moments, const Populations<T>& populations,
+                       const FaceContext& context) const;
+  template <bool kOddStep>
+  void extend(Populations<T>& populations, const FaceConditions& faces, const FaceContext& context) const;
 
   std::vector<Patch> patches_;
   std::array<FaceMoments, kFaces> moments_;

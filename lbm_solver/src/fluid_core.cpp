@@ -60,12 +60,16 @@ void FluidCore<T>::step() {
                               c.smagorinsky > 0, labels_ != nullptr};
   kernel_for<T>(instruction_set, variant)(kernel_call());
   const FaceContext context{force, c.incompressible};
-  // Exchange first: it copies ghost cells that walls and solids then overwrite with what really enters.
+  // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
+  // solids last, because the exchange also copies places that they then overwrite with what really enters.
+  patches_.read_moments(populations_, settings.faces, context, odd);
   if (odd) {
+    patches_.extend_fold(populations_, settings.faces, context);
     halo_.fold(populations_);
     patches_.fold(populations_, settings.faces, context);
     if (links_) links_->fold(populations_);
   } else {
+    patches_.extend_fill(populations_, settings.faces, context);
     halo_.fill(populations_);
     patches_.fill(populations_, settings.faces, context);
     if (links_) links_->fill(populations_);
@@ -114,6 +118,7 @@ void FluidCore<T>::set_solids(const std::function<std::uint8_t(const Index3& cel
           cell[a] = (cell[a] + cells) % cells;
           break;
         case FaceKind::free_slip:
+        case FaceKind::pressure:
           cell[a] = cell[a] < 0 ? 0 : cells - 1;
           break;
         default:

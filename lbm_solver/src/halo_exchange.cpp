@@ -15,20 +15,6 @@ std::array<int, 5> leaving(int axis, bool high) {
   return directions;
 }
 
-/// The layer of cells at `position` across `axis`; axes before it with their ghost cells, axes after it
-/// without.
-CellBox layer(const Index3& cells, int axis, int position) {
-  CellBox box;
-  for (int a = 0; a < 3; ++a) {
-    const auto at = static_cast<std::size_t>(a);
-    box.lo[at] = a < axis ? -1 : 0;
-    box.hi[at] = cells[at] + (a < axis ? 1 : 0);
-  }
-  box.lo[static_cast<std::size_t>(axis)] = position;
-  box.hi[static_cast<std::size_t>(axis)] = position + 1;
-  return box;
-}
-
 template <class T>
 void pack(const Populations<T>& populations, const std::array<int, 5>& directions, const CellBox& box,
           std::vector<T>& buffer) {
@@ -76,10 +62,26 @@ HaloExchange<T>::HaloExchange(const Decomposition& decomposition, const FaceCond
     const FaceKind kind = faces[at].kind;
     neighbours_[at] = decomposition.neighbour(face);
     const bool streams = !decomposition.at_global_face(face) || kind == FaceKind::periodic;
+    pressure_[at] = decomposition.at_global_face(face) && kind == FaceKind::pressure;
     partners_[at] = streams ? neighbours_[at] == decomposition.rank() ? Partner::self : Partner::other
                     : kind == FaceKind::free_slip ? Partner::mirror
                                                   : Partner::none;
   }
+}
+
+/// The layer of cells at `position` across `axis`: axes before it with their ghost cells, axes after it with
+/// those beyond pressure faces.
+template <class T>
+CellBox HaloExchange<T>::layer(const Index3& cells, int axis, int position) const {
+  CellBox box;
+  for (int a = 0; a < 3; ++a) {
+    const auto at = static_cast<std::size_t>(a);
+    box.lo[at] = a < axis || pressure_[2 * at] ? -1 : 0;
+    box.hi[at] = cells[at] + (a < axis || pressure_[2 * at + 1] ? 1 : 0);
+  }
+  box.lo[static_cast<std::size_t>(axis)] = position;
+  box.hi[static_cast<std::size_t>(axis)] = position + 1;
+  return box;
 }
 
 template <class T>

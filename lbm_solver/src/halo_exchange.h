@@ -14,7 +14,8 @@ namespace suffuse::lbm {
 /// cells will read into the ghost cells before an odd step; `fold` takes what they wrote into ghost cells
 /// back to the cells it belongs to after it. Only the five directions that cross a face travel. Axes go one
 /// after the other (x, y, z; folding in reverse) and each takes the ghost cells of the former along, so that
-/// populations crossing an edge arrive without messages of their own.
+/// populations crossing an edge arrive without messages of their own. Ghost cells beyond pressure faces have
+/// been filled before and go along too.
 template <class T>
 class HaloExchange {
  public:
@@ -25,15 +26,17 @@ class HaloExchange {
 
  private:
   enum class Partner { none, self, other, mirror };
-  struct Plane;
 
   void run_axis(Populations<T>& populations, int axis, bool folding);
   void mirror(Populations<T>& populations, int axis, bool high, bool folding);
   void exchange(Populations<T>& populations, int axis, bool folding);
 
+  CellBox layer(const Index3& cells, int axis, int position) const;
+
   MPI_Comm communicator_;
   std::array<Partner, kFaces> partners_{};
   std::array<int, kFaces> neighbours_{};
+  std::array<bool, kFaces> pressure_{};
   std::vector<T> send_[2], receive_[2];
 };
 

@@ -98,14 +98,24 @@ double ReferenceFluid::entering(const Index3& cell, int direction) {
   for (int a = 0; a < 3; ++a) {
     const auto at = static_cast<std::size_t>(a);
     if (crossed[at] == 0) continue;
-    if (settings_.faces[static_cast<std::size_t>(face_at(a, crossed[at] > 0))].kind == FaceKind::free_slip) {
+    const FaceKind kind = settings_.faces[static_cast<std::size_t>(face_at(a, crossed[at] > 0))].kind;
+    if (kind == FaceKind::free_slip || kind == FaceKind::pressure) {
       source[at] = cell[at];
-      from = reflected(from, a);
+      if (kind == FaceKind::free_slip) from = reflected(from, a);
     } else {
       source[at] = (source[at] + cells_[at]) % cells_[at];
     }
   }
   const std::uint8_t label = labels_[index(source)];
+  if (label == 0 && rule.action == LinkRule::Action::extend) {
+    const FluidPoint inside = after_collision(source);
+    const double cu = velocity_of(from).dot(inside.velocity);
+    const double shape = settings_.collision.incompressible
+                             ? 1
+                             : 1 + 3 * cu + 4.5 * cu * cu - 1.5 * inside.velocity.squaredNorm();
+    return after_[index(source)][static_cast<std::size_t>(from)] +
+           2 * (one.density - inside.density) * kWeight[from] * shape;
+  }
   if (label == 0) return after_[index(source)][static_cast<std::size_t>(from)];
   solid_forces_[label] += 2 * (left - kWeight[out]) * velocity_of(out);
   return left;

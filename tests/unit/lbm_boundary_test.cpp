@@ -54,12 +54,14 @@ TEST_CASE("where two faces meet the stronger one decides") {
   CHECK(link_rule(faces, {0, 0, 0}).action == Action::stream);
   CHECK(link_rule(faces, {-1, 0, 0}).action == Action::mirror);
   CHECK(link_rule(faces, {-1, 0, -1}).action == Action::mirror);
-  CHECK(link_rule(faces, {1, 0, -1}).action == Action::anti_bounce);
+  CHECK(link_rule(faces, {1, 0, -1}).action == Action::extend);
   CHECK(link_rule(faces, {1, 0, 0}).face == Face::xhi);
   CHECK(link_rule(faces, {1, -1, 0}).action == Action::bounce);
   CHECK(link_rule(faces, {1, -1, 0}).face == Face::ylo);
   CHECK(link_rule(faces, {0, -1, 1}).face == Face::zhi);  // no-slip beats a moving wall: lids do not leak
   CHECK(link_rule(faces, {1, 1, 0}).face == Face::yhi);
+  faces[5].kind = FaceKind::pressure;
+  CHECK(link_rule(faces, {1, 0, 1}).action == Action::anti_bounce);
   faces[1].kind = FaceKind::velocity;
   const LinkRule shared = link_rule(faces, {1, -1, 0});
   CHECK(shared.face != shared.other);

@@ -28,7 +28,7 @@ enum class FaceKind {
   no_slip,    ///< half-way bounce-back: the wall lies on the face, half a cell outside the last cell's centre
   free_slip,  ///< specular reflection: a plane of symmetry
   velocity,   ///< bounce-back off a wall that moves, or that lets fluid through, at a given velocity
-  pressure,   ///< anti-bounce-back: a given density on the face, the velocity follows from the flow
+  pressure,   ///< a given density on the face; velocity and stress go on unchanged across it
 };
 std::string name_of(FaceKind kind);
 
@@ -50,10 +50,12 @@ void check(const FaceConditions& faces, const Index3& cells);
 /// What becomes of a population that leaves the box through one face or, along a diagonal, through two.
 struct LinkRule {
   enum class Action {
-    stream,       ///< goes on to a neighbour cell, perhaps through a periodic face
-    mirror,       ///< goes on to the mirror image of the neighbour (free-slip faces only)
-    bounce,       ///< comes back into the cell that it left, changed by the wall's velocity
-    anti_bounce,  ///< comes back with its sign turned, about the equilibrium at the face's density
+    stream,  ///< goes on to a neighbour cell, perhaps through a periodic face
+    mirror,  ///< goes on to the mirror image of the neighbour (free-slip faces only)
+    bounce,  ///< comes back into the cell that it left, changed by the wall's velocity
+    extend,  ///< the cell beyond a pressure face continues the flow at the density that the face asks for
+    anti_bounce,  ///< where two pressure faces meet: comes back with its sign turned, about the face's
+                  ///< equilibrium
   };
   Action action = Action::stream;
   Face face = Face::xlo;  ///< whose value holds
@@ -63,7 +65,8 @@ struct LinkRule {
 
 /// The rule for a link that crosses the given faces (crossed[axis] is -1, 0 or +1). Where two faces meet:
 /// a periodic or free-slip face leaves the other in charge; a no-slip wall is stronger than all; a velocity
-/// is stronger than a pressure; two of the same kind share (mean value). Two free-slip faces mirror twice.
+/// is stronger than a pressure; two of the same kind share (mean value). Two free-slip faces mirror
+/// twice; one beside a pressure face mirrors what continues beyond that.
 LinkRule link_rule(const FaceConditions& faces, const Index3& crossed);
 
 }  // namespace suffuse::lbm

@@ -78,8 +78,8 @@ class Fluid {
   }
   long steps() const;
 
-  /// Reads and writes back every population of this rank, unchanged, with one multiplication and one addition each:
-  /// the fastest that the memory allows, for comparison with a step.
+  /// Reads and writes back every population of this rank, unchanged, with one multiplication and one addition
+  /// each: the fastest that the memory allows, for comparison with a step.
   void bare_update();
 
   /// Density and velocity of a cell of this rank; a solid cell is at rest at density one.
