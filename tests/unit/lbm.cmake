@@ -3,3 +3,4 @@ suffuse_catch_test(NAME unit_lbm_kernels SOURCES lbm_kernels_test.cpp LINKS suff
 suffuse_catch_test(NAME unit_lbm_boundary SOURCES lbm_boundary_test.cpp LINKS suffuse::lbm_solver LABELS fluid RANKS 1)
 suffuse_catch_test(NAME unit_lbm_ranks SOURCES lbm_ranks_test.cpp LINKS suffuse::lbm_solver LABELS fluid
   RANKS 1 2 3 4 6)
+suffuse_catch_test(NAME unit_lbm_units SOURCES lbm_units_test.cpp LINKS suffuse::lbm_solver LABELS fluid)
