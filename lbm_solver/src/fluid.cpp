@@ -109,6 +109,11 @@ bool Fluid::is_solid(const Index3& cell) const {
   return core_->is_solid(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
 }
 
+std::uint8_t Fluid::solid_label(const Index3& cell) const {
+  const Index3& lo = core_->decomposition.local_box().lo;
+  return core_->solid_label(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
+}
+
 FluidPoint Fluid::at(const Index3& cell) const {
   const Index3& lo = core_->decomposition.local_box().lo;
   return core_->at(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);

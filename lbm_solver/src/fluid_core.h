@@ -21,7 +21,8 @@ class FluidCoreBase {
   virtual double population(int direction, int x, int y, int z) const = 0;
   virtual void set_population(int direction, int x, int y, int z, double value) = 0;
   virtual void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) = 0;
-  virtual bool is_solid(int x, int y, int z) const = 0;
+  virtual std::uint8_t solid_label(int x, int y, int z) const = 0;
+  bool is_solid(int x, int y, int z) const { return solid_label(x, y, z) != 0; }
   virtual Vec3 local_solid_force(std::uint8_t label) const = 0;
   virtual std::size_t bytes() const = 0;
   virtual void bare_update() = 0;
@@ -47,7 +48,9 @@ class FluidCore final : public FluidCoreBase {
   double population(int direction, int x, int y, int z) const override;
   void set_population(int direction, int x, int y, int z, double value) override;
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) override;
-  bool is_solid(int x, int y, int z) const override { return labels_ && labels_->at(x, y, z) != 0; }
+  std::uint8_t solid_label(int x, int y, int z) const override {
+    return labels_ ? labels_->at(x, y, z) : std::uint8_t{0};
+  }
   Vec3 local_solid_force(std::uint8_t label) const override {
     return links_ ? links_->force(label) : Vec3::Zero();
   }

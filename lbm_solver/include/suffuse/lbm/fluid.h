@@ -63,6 +63,7 @@ class Fluid {
   /// every cell of the rank and the cells around it (through periodic faces and mirrored by free-slip ones).
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of);
   bool is_solid(const Index3& cell) const;
+  std::uint8_t solid_label(const Index3& cell) const;
 
   /// Force per cell and step from the next step on, the same everywhere.
   void set_force(const Vec3& force);
