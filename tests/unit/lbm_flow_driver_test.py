@@ -63,7 +63,7 @@ def main(program, mpirun, folder):
     for change, message in [
         (('xlo = "noslip"', 'xlo = "nosli"'), "xlo = nosli, must be one of"),
         (("spacing = 1e-4", "spacing = 1.1e-4"), "fits"),
-        (("time = 1", "tim = 1"), "key = tim, must be one of time"),
+        (("\ntime = 1", "\ntim = 1"), "key = tim, must be one of time"),
         (("relaxation_time = 1.1", "relaxation_time = 0.5"), "must be > 0.5; raise viscosity or timestep"),
         (('zhi = { kind = "pressure", value = 0 }', 'zhi = "periodic"'), "must be periodic"),
         (("viscosity = 1e-6", 'viscosity = "water"'), "must be a number"),
