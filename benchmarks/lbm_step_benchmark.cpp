@@ -66,6 +66,9 @@ void run_scene(benchmark::State& state, const Scene& scene) {
     state.SetIterationTime(step_times.back());
   }
   state.counters["share"] = median(ratios);
+  // Where others use the machine meanwhile: the best of each, as if it had been quiet.
+  state.counters["share_best"] = *std::min_element(bare_times.begin(), bare_times.end()) /
+                                 *std::min_element(step_times.begin(), step_times.end());
   state.counters["MLUPS"] = cells / median(step_times) * 1e-6;
   state.counters["bare_MLUPS"] = cells / median(bare_times) * 1e-6;
   state.counters["bytes_per_cell"] =
@@ -126,7 +129,7 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(scene.name.c_str(), run_scene, scene)
         ->UseManualTime()
         ->Unit(benchmark::kMillisecond)
-        ->Iterations(9);  // every rank must make the same number, so none is left to a clock
+        ->Iterations(21);  // every rank must make the same number, so none is left to a clock
   Silent silent;
   if (rank == 0)
     benchmark::RunSpecifiedBenchmarks();

@@ -1,5 +1,7 @@
 #include "face_patches.h"
 
+#include <algorithm>
+
 namespace suffuse::lbm {
 
 namespace {
@@ -44,7 +46,8 @@ FacePatches<T>::FacePatches(const Decomposition& decomposition, const FaceCondit
       if (!possible || box.empty()) continue;
       const LinkRule rule = link_rule(faces, crossed);
       if (rule.action == LinkRule::Action::bounce || rule.action == LinkRule::Action::anti_bounce)
-        patches_.push_back({i, box, rule});
+        add({i, box, rule}, cells,
+            subset == 1 && faces[static_cast<std::size_t>(rule.face)].kind == FaceKind::no_slip);
     }
   }
   for (int f = 0; f < kFaces; ++f) {
@@ -58,6 +61,52 @@ FacePatches<T>::FacePatches(const Decomposition& decomposition, const FaceCondit
     moments.cells = part_of(cells, side, {0, 0, 0});
     moments.density.resize(moments.cells.volume());
     for (auto& component : moments.velocity) component.resize(moments.cells.volume());
+  }
+}
+
+/// A wall across x is split into its inner part, done row by row behind the kernel, and the rim that is left.
+template <class T>
+void FacePatches<T>::add(const Patch& patch, const Index3& cells, bool wall_across_x) {
+  Patch inner = patch;
+  for (std::size_t a = 1; a < 3; ++a) {
+    inner.cells.lo[a] = std::max(patch.cells.lo[a], 1);
+    inner.cells.hi[a] = std::min(patch.cells.hi[a], cells[a] - 1);
+  }
+  if (!wall_across_x || inner.cells.empty()) {
+    patches_.push_back(patch);
+    return;
+  }
+  near_patches_.push_back(inner);
+  const auto add_rim = [&](std::size_t axis, int lo, int hi, const CellBox& from) {
+    Patch rim = patch;
+    rim.cells = from;
+    rim.cells.lo[axis] = lo;
+    rim.cells.hi[axis] = hi;
+    if (!rim.cells.empty()) patches_.push_back(rim);
+  };
+  add_rim(2, patch.cells.lo[2], inner.cells.lo[2], patch.cells);
+  add_rim(2, inner.cells.hi[2], patch.cells.hi[2], patch.cells);
+  CellBox between = patch.cells;
+  between.lo[2] = inner.cells.lo[2];
+  between.hi[2] = inner.cells.hi[2];
+  add_rim(1, patch.cells.lo[1], inner.cells.lo[1], between);
+  add_rim(1, inner.cells.hi[1], patch.cells.hi[1], between);
+}
+
+template <class T>
+void FacePatches<T>::apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y, int end_y,
+                                     int z) const {
+  for (const Patch& patch : near_patches_) {
+    if (z < patch.cells.lo[2] || z >= patch.cells.hi[2]) continue;
+    T* own = populations.slot(opposite(patch.direction));
+    T* beyond = populations.slot(patch.direction) + populations.offset_of(patch.direction);
+    const T* from = after_odd_step ? beyond : own;
+    T* to = after_odd_step ? own : beyond;
+    const int last = std::min(end_y, patch.cells.hi[1]);
+    for (int y = std::max(begin_y, patch.cells.lo[1]); y < last; ++y) {
+      const std::ptrdiff_t cell = populations.index(patch.cells.lo[0], y, z);
+      to[cell] = from[cell];
+    }
   }
 }
 
@@ -119,21 +168,24 @@ void FacePatches<T>::extend(Populations<T>& populations, const FaceConditions& f
       // cell further out; after an odd step it lies at y + c_j in slot j and, again, is wanted one cell
       // further out.
       T* slot = kOddStep ? populations.slot(j) + populations.offset_of(j) : populations.slot(opposite(j));
-      const double w = kWeight[j];
-      const Vec3 c(kVelocity[j][0], kVelocity[j][1], kVelocity[j][2]);
+      const double w = kWeight[j], cx = kVelocity[j][0], cy = kVelocity[j][1], cz = kVelocity[j][2];
+      const double face_density = faces[f].density, quadratic = context.incompressible ? 0. : 1.;
+      const auto length = static_cast<std::size_t>(moments.cells.extent(0));
       std::size_t n = 0;
-      for_each_cell(moments.cells, [&](int x, int y, int z) {
-        const std::ptrdiff_t cell = populations.index(x, y, z);
-        double shape = w;
-        if (!context.incompressible) {
-          const Vec3 u(moments.velocity[0][n], moments.velocity[1][n], moments.velocity[2][n]);
-          const double cu = c.dot(u);
-          shape *= 1 + 3 * cu + 4.5 * cu * cu - 1.5 * u.squaredNorm();
+      for (int z = moments.cells.lo[2]; z < moments.cells.hi[2]; ++z)
+        for (int y = moments.cells.lo[1]; y < moments.cells.hi[1]; ++y, n += length) {
+          const T* inside = slot + populations.index(moments.cells.lo[0], y, z);
+          T* ghost = slot + populations.index(moments.cells.lo[0], y, z) + beyond;
+          const double *density = moments.density.data() + n, *ux = moments.velocity[0].data() + n,
+                       *uy = moments.velocity[1].data() + n, *uz = moments.velocity[2].data() + n;
+          for (std::size_t x = 0; x < length; ++x) {
+            const double cu = cx * ux[x] + cy * uy[x] + cz * uz[x];
+            const double u2 = ux[x] * ux[x] + uy[x] * uy[x] + uz[x] * uz[x];
+            const double shape = w * (1 + quadratic * (3 * cu + 4.5 * cu * cu - 1.5 * u2));
+            ghost[x] =
+                static_cast<T>(static_cast<double>(inside[x]) + 2 * (face_density - density[x]) * shape);
+          }
         }
-        slot[cell + beyond] = static_cast<T>(static_cast<double>(slot[cell]) +
-                                             2 * (faces[f].density - moments.density[n]) * shape);
-        ++n;
-      });
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "fluid_core.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace suffuse::lbm {
@@ -54,11 +55,35 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 }
 
 template <class T>
+void FluidCore<T>::sweep(Kernel<T> kernel) {
+  KernelCall<T> call = kernel_call();
+  if (!patches_.has_near_rows()) {
+    kernel(call);
+    return;
+  }
+  // A few rows at a time, about a third of a megabyte: what the kernel wrote is still in the second-level
+  // cache.
+  constexpr std::ptrdiff_t bytes = 300000;
+  const int rows = static_cast<int>(std::max<std::ptrdiff_t>(
+      1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
+  const Index3& cells = populations_.cells();
+  for (int z = 0; z < cells[2]; ++z)
+    for (int y = 0; y < cells[1]; y += rows) {
+      call.begin_z = z;
+      call.end_z = z + 1;
+      call.begin_y = y;
+      call.end_y = std::min(y + rows, cells[1]);
+      kernel(call);
+      patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
+    }
+}
+
+template <class T>
 void FluidCore<T>::step() {
   const CollisionSettings& c = settings.collision;
   const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
                               c.smagorinsky > 0, labels_ != nullptr};
-  kernel_for<T>(instruction_set, variant)(kernel_call());
+  sweep(kernel_for<T>(instruction_set, variant));
   const FaceContext context{force, c.incompressible};
   // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
   // solids last, because the exchange also copies places that they then overwrite with what really enters.

@@ -58,6 +58,7 @@ class FluidCore final : public FluidCoreBase {
 
  private:
   KernelCall<T> kernel_call();
+  void sweep(Kernel<T> kernel);
   std::ptrdiff_t place(int direction, int x, int y, int z) const;
 
   Populations<T> populations_;
