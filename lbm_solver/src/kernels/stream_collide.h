@@ -48,6 +48,12 @@ template <class Operator, class Solid, bool kForced, class T>
   if constexpr (Solid::kMixes) Solid::mix(cells, lanes, call, before, g);
 }
 
+/// How far ahead of a load its stream is fetched. Nineteen streams are more than the hardware prefetcher of
+/// the machines at hand follows: without this a step reaches 0.75 of the bare update in double and 0.65 in
+/// float, with 256 or 512 bytes 0.93 and 0.87 (docs/performance.md). Fetching past the end of a row is the
+/// next row; past the array, harmless.
+inline constexpr int kPrefetchBytes = 512;
+
 /// Steps `packs` packs of neighbouring cells. The last part of a row, shorter than a pack, comes here as well
 /// (see below), so that every cell goes through these very instructions and results do not depend on how rows
 /// are cut.
@@ -62,7 +68,10 @@ template <class T, class Operator, class Solid, bool kForced>
   for (std::ptrdiff_t x = 0; x < packs * width; x += width) {
     Pack<T> g[kDirections];
 #pragma GCC unroll 19
-    for (int i = 0; i < kDirections; ++i) g[i] = load<T>(p[i] + x);
+    for (int i = 0; i < kDirections; ++i) {
+      g[i] = load<T>(p[i] + x);
+      __builtin_prefetch(reinterpret_cast<const char*>(p[i] + x) + kPrefetchBytes, 1);
+    }
     collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
 #pragma GCC unroll 19
     for (int i = 0; i < kDirections; ++i) store<T>(p[opposite(i)] + x, g[i]);
