@@ -1,0 +1,252 @@
+#include "suffuse/common/hdf5_file.h"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+namespace suffuse {
+
+namespace {
+
+/// Closes an HDF5 identifier when it goes out of scope.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5: cannot " + what);
+  }
+  ~Id() { close_(id_); }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void ensure(herr_t status, const std::string& what) {
+  if (status < 0) throw std::runtime_error("HDF5: cannot " + what);
+}
+
+template <class T>
+hid_t type_of();
+template <>
+hid_t type_of<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
+template <>
+hid_t type_of<float>() {
+  return H5T_NATIVE_FLOAT;
+}
+template <>
+hid_t type_of<std::uint8_t>() {
+  return H5T_NATIVE_UINT8;
+}
+template <>
+hid_t type_of<std::int64_t>() {
+  return H5T_NATIVE_INT64;
+}
+
+std::vector<hsize_t> sizes(const std::vector<std::size_t>& values) {
+  return {values.begin(), values.end()};
+}
+
+hid_t space_for(const std::vector<std::size_t>& extents) {
+  const std::vector<hsize_t> dims = sizes(extents);
+  return H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr);
+}
+
+/// Selects a rank's part in the file's array; an empty part takes part with nothing.
+void select(hid_t space, const ArrayPart& part) {
+  if (std::find(part.count.begin(), part.count.end(), std::size_t{0}) != part.count.end()) {
+    ensure(H5Sselect_none(space), "select nothing");
+    return;
+  }
+  const std::vector<hsize_t> offset = sizes(part.offset), count = sizes(part.count);
+  ensure(H5Sselect_hyperslab(space, H5S_SELECT_SET, offset.data(), nullptr, count.data(), nullptr),
+         "select a part");
+}
+
+std::size_t volume(const ArrayPart& part) {
+  std::size_t product = 1;
+  for (const std::size_t n : part.count) product *= n;
+  return product;
+}
+
+template <class T>
+void set_scalar(hid_t file, const std::string& object, const std::string& name, T value) {
+  if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+    ensure(H5Adelete_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT), "replace attribute " + name);
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
+  const Id attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), type_of<T>(), space, H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose, "create attribute " + name);
+  ensure(H5Awrite(attribute, type_of<T>(), &value), "write attribute " + name);
+}
+
+template <class T>
+T get_scalar(hid_t file, const std::string& object, const std::string& name) {
+  const Id attribute(H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                     "find attribute " + name + " of " + object);
+  T value{};
+  ensure(H5Aread(attribute, type_of<T>(), &value), "read attribute " + name);
+  return value;
+}
+
+}  // namespace
+
+struct Hdf5File::Handle {
+  hid_t file = -1;
+};
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
+    : handle_(std::make_unique<Handle>()), path_(path) {
+  H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is thrown, not printed
+  int rank = 0, there = 0;
+  MPI_Comm_rank(communicator, &rank);
+  if (rank == 0) there = std::filesystem::exists(path) ? 1 : 0;
+  MPI_Bcast(&there, 1, MPI_INT, 0, communicator);
+  const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up access to " + path);
+  ensure(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "use MPI for " + path);
+  if (mode == Mode::read)
+    handle_->file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  else if (mode == Mode::append && there == 1)
+    handle_->file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+  else
+    handle_->file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  if (handle_->file < 0)
+    throw std::runtime_error((mode == Mode::read ? "cannot read HDF5 file " : "cannot write HDF5 file ") +
+                             path);
+}
+
+Hdf5File::~Hdf5File() {
+  if (handle_->file >= 0) H5Fclose(handle_->file);
+}
+
+bool Hdf5File::exists(const std::string& object) const {
+  // Every group on the way must exist before the last name may be asked for.
+  for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
+       slash = object.find('/', slash + 1))
+    if (H5Lexists(handle_->file, object.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+  return H5Lexists(handle_->file, object.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::create_group(const std::string& group) {
+  const Id id(H5Gcreate(handle_->file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+              "create group " + group + " in " + path_);
+}
+
+void Hdf5File::remove(const std::string& object) {
+  ensure(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), "remove " + object + " from " + path_);
+}
+
+std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
+  const Id id(H5Gopen(handle_->file, group.c_str(), H5P_DEFAULT), H5Gclose, "open group " + group);
+  std::vector<std::string> names;
+  H5G_info_t info;
+  ensure(H5Gget_info(id, &info), "list " + group);
+  for (hsize_t n = 0; n < info.nlinks; ++n) {
+    const ssize_t length =
+        H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, nullptr, 0, H5P_DEFAULT);
+    std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1, '\0');
+    H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, name.data(), name.size(), H5P_DEFAULT);
+    name.pop_back();
+    names.push_back(name);
+  }
+  return names;
+}
+
+template <class T>
+void Hdf5File::create_array(const std::string& dataset, const std::vector<std::size_t>& extents) {
+  const Id space(space_for(extents), H5Sclose, "shape " + dataset);
+  const Id id(
+      H5Dcreate(handle_->file, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose, "create " + dataset + " in " + path_);
+}
+
+template <class T>
+void Hdf5File::write(const std::string& dataset, const ArrayPart& part, const std::vector<T>& values) {
+  if (values.size() != volume(part))
+    throw std::logic_error("Hdf5File::write: " + dataset + " has another size");
+  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
+  const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+  select(file_space, part);
+  const hsize_t length = values.size();
+  const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
+  const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
+  ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "write together");
+  ensure(H5Dwrite(id, type_of<T>(), memory, file_space, transfer, values.data()),
+         "write " + dataset + " to " + path_);
+}
+
+template <class T>
+std::vector<T> Hdf5File::read(const std::string& dataset, const ArrayPart& part) const {
+  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
+              "find " + dataset + " in " + path_);
+  const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+  select(file_space, part);
+  std::vector<T> values(volume(part));
+  const hsize_t length = values.size();
+  const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
+  const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
+  ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "read together");
+  ensure(H5Dread(id, type_of<T>(), memory, file_space, transfer, values.data()),
+         "read " + dataset + " of " + path_);
+  return values;
+}
+
+std::vector<std::size_t> Hdf5File::extents(const std::string& dataset) const {
+  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
+              "find " + dataset + " in " + path_);
+  const Id space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+  std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return {dims.begin(), dims.end()};
+}
+
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
+  set_scalar(handle_->file, object, name, value);
+}
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::int64_t value) {
+  set_scalar(handle_->file, object, name, value);
+}
+void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& value) {
+  if (H5Aexists_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+    ensure(H5Adelete_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT),
+           "replace attribute " + name);
+  const Id type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+  ensure(H5Tset_size(type, value.size() + 1), "size a text");
+  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
+  const Id attribute(H5Acreate_by_name(handle_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose, "create attribute " + name);
+  ensure(H5Awrite(attribute, type, value.c_str()), "write attribute " + name);
+}
+
+double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
+  return get_scalar<double>(handle_->file, object, name);
+}
+std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::string& name) const {
+  return get_scalar<std::int64_t>(handle_->file, object, name);
+}
+std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
+  const Id attribute(H5Aopen_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose, "find attribute " + name + " of " + object);
+  const Id type(H5Aget_type(attribute), H5Tclose, "type attribute " + name);
+  std::string value(H5Tget_size(type), '\0');
+  ensure(H5Aread(attribute, type, value.data()), "read attribute " + name);
+  return value.substr(0, value.find('\0'));
+}
+
+#define SUFFUSE_INSTANTIATE(T)                                                                   \
+  template void Hdf5File::create_array<T>(const std::string&, const std::vector<std::size_t>&);  \
+  template void Hdf5File::write<T>(const std::string&, const ArrayPart&, const std::vector<T>&); \
+  template std::vector<T> Hdf5File::read<T>(const std::string&, const ArrayPart&) const;
+SUFFUSE_INSTANTIATE(double)
+SUFFUSE_INSTANTIATE(float)
+SUFFUSE_INSTANTIATE(std::uint8_t)
+#undef SUFFUSE_INSTANTIATE
+
+}  // namespace suffuse

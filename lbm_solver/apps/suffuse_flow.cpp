@@ -1,0 +1,228 @@
+// suffuse-flow CASE.toml: a single-phase flow on any number of ranks (docs/lbm/suffuse-flow.md).
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "suffuse/common/error.h"
+#include "suffuse/common/progress.h"
+#include "suffuse/lbm/checkpoint.h"
+#include "suffuse/lbm/flow_case.h"
+
+namespace {
+
+using namespace suffuse;
+using namespace suffuse::lbm;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A running case: the fluid and what is due at which step.
+class FlowRun {
+ public:
+  explicit FlowRun(const FlowCase& flow)
+      : flow_(flow),
+        units_(flow.units),
+        fluid_(settings_of(flow, units_), Decomposition::balanced(MPI_COMM_WORLD, cells_of(flow, units_))),
+        speaks_(fluid_.decomposition().rank() == 0) {
+    add_spheres();
+    fluid_.set_force(force_at(flow_, units_, 0));
+    if (!flow_.restart_read.empty()) load_state(fluid_, flow_.restart_read);
+    if (flow_.output) output_.emplace(*flow_.output, units_);
+    for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
+      fluid_cells_ += fluid_.is_solid({x, y, z}) ? 0 : 1;
+    });
+    MPI_Allreduce(MPI_IN_PLACE, &fluid_cells_, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  }
+
+  void run() {
+    tell_settings();
+    open_monitor();
+    const long first = fluid_.steps(),
+               last = first + std::max(1L, std::lround(units_.time_to_lattice(flow_.time)));
+    const long monitor_every = steps_of(flow_.monitor_every), output_every = steps_of(flow_.output_every);
+    const long check_every = std::max(10L, (last - first) / 100), tenth = std::max(2L, (last - first) / 10);
+    ProgressLine progress(speaks_);
+    double last_mean = 0;
+    report(progress, first, first, last);
+    write_due(first, monitor_every, output_every);
+    while (fluid_.steps() < last) {
+      step();
+      const long done = fluid_.steps() - first;
+      write_due(done, monitor_every, output_every);
+      if (done % check_every == 0 || fluid_.steps() == last) report(progress, first, fluid_.steps(), last);
+      if (flow_.until_steady && done % tenth == 0 && is_steady(last_mean)) break;
+    }
+    progress.finish(details_);
+    if (!flow_.restart_write.empty()) save_state(fluid_, flow_.restart_write);
+    tell_speed(fluid_.steps() - first);
+  }
+
+ private:
+  static FluidSettings settings_of(const FlowCase& flow, const Units& units) {
+    FluidSettings settings;
+    settings.collision = flow.collision;
+    settings.collision.relaxation_time = units.relaxation_time();
+    settings.precision = flow.precision;
+    settings.faces = faces_at(flow, units, 0);
+    check(faces_at(flow, units, 1e300), cells_of(flow, units));  // the values at the end of all ramps as well
+    return settings;
+  }
+
+  long steps_of(double seconds) const { return std::max(1L, std::lround(units_.time_to_lattice(seconds))); }
+
+  void add_spheres() {
+    if (flow_.spheres.empty()) return;
+    const Vec3 size = flow_.size;
+    fluid_.set_solids([&](const Index3& c) {
+      const Vec3 centre = units_.spacing() * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
+      const bool inside =
+          std::any_of(flow_.spheres.begin(), flow_.spheres.end(), [&](const FlowSphere& sphere) {
+            Vec3 d = centre - sphere.centre;
+            for (int a = 0; a < 3; ++a)  // the nearest image across periodic faces
+              if (flow_.faces[static_cast<std::size_t>(2 * a)].kind == FaceKind::periodic)
+                d[a] -= size[a] * std::round(d[a] / size[a]);
+            return d.squaredNorm() < sphere.radius * sphere.radius;
+          });
+      return inside ? std::uint8_t{1} : std::uint8_t{0};
+    });
+  }
+
+  void step() {
+    const double time = units_.time_to_si(static_cast<double>(fluid_.steps()));
+    const auto start = Clock::now();
+    fluid_.set_faces(faces_at(flow_, units_, time));
+    fluid_.step();
+    step_seconds_ += seconds_since(start);
+    fluid_.set_force(force_at(flow_, units_, time + units_.time_step()));
+  }
+
+  void tell_settings() const {
+    if (!speaks_) return;
+    const Index3& n = fluid_.decomposition().cells();
+    fmt::print("{} x {} x {} cells on {} ranks, {} kernels, {}{}{}, {}\n", n[0], n[1], n[2],
+               fluid_.decomposition().ranks(), name_of(fluid_.instruction_set()),
+               name_of(flow_.collision.collision_operator),
+               flow_.collision.smagorinsky > 0 ? ", Smagorinsky" : "",
+               flow_.collision.incompressible ? ", incompressible" : "",
+               flow_.precision == Precision::double_precision ? "double" : "float");
+    fmt::print("{}\n", units_.summary());
+    for (const std::string& line : units_.warnings()) fmt::print("note: {}\n", line);
+    std::fflush(stdout);
+  }
+
+  void open_monitor() {
+    if (flow_.monitor_file.empty() || !speaks_) return;
+    monitor_.open(flow_.monitor_file, flow_.restart_read.empty() ? std::ios::trunc : std::ios::app);
+    if (!monitor_) throw UserError("cannot write monitor file " + flow_.monitor_file);
+    if (flow_.restart_read.empty())
+      monitor_ << "time_s,superficial_velocity_x_m_per_s,superficial_velocity_y_m_per_s,superficial_velocity_"
+                  "z_m_per_s,"
+                  "solid_force_x_n,solid_force_y_n,solid_force_z_n,mass_kg\n";
+  }
+
+  /// Mean momentum over the whole box (solids at rest included), as a velocity.
+  Vec3 superficial_velocity() const {
+    const double volume = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
+    return units_.velocity_to_si(Vec3(fluid_.momentum() / volume));
+  }
+
+  void write_due(long done, long monitor_every, long output_every) {
+    if (output_ && done % output_every == 0) output_->write(fluid_);
+    if (flow_.monitor_file.empty() || done % monitor_every != 0) return;
+    const Vec3 u = superficial_velocity(), force = units_.force_to_si(fluid_.solid_force(1));
+    const double cell_mass = units_.density() * std::pow(units_.spacing(), 3);
+    const double mass = cell_mass * (fluid_cells_ + fluid_.mass_deviation());
+    if (!speaks_) return;
+    monitor_ << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
+                            units_.time_to_si(static_cast<double>(fluid_.steps())), u[0], u[1], u[2],
+                            force[0], force[1], force[2], mass)
+             << std::flush;
+  }
+
+  void report(ProgressLine& progress, long first, long now, long last) {
+    const FluidExtremes extremes = fluid_.extremes();
+    const double mach = extremes.largest_speed * std::sqrt(3.);
+    if (!extremes.finite || mach > 1)
+      throw UserError(fmt::format(
+          "fluid: at {:.4g} s {}; lower timestep or spacing, take collision central_moments, or ramp "
+          "the boundary values more slowly",
+          units_.time_to_si(static_cast<double>(now)),
+          extremes.finite ? fmt::format("the Mach number reached {:.2f}", mach)
+                          : std::string("a density or velocity is not a number")));
+    const double cells = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
+    details_ =
+        fmt::format("{:.4g} s  {:.1f} MLUPS  Mach {:.3f}  density {:+.2f} .. {:+.2f} %",
+                    units_.time_to_si(static_cast<double>(now)),
+                    step_seconds_ > 0 ? cells * static_cast<double>(now - first) / step_seconds_ * 1e-6 : 0.,
+                    mach, 100 * (extremes.smallest_density - 1), 100 * (extremes.largest_density - 1));
+    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first), details_);
+  }
+
+  bool is_steady(double& last_mean) const {
+    const double mean = superficial_velocity().norm(), change = std::abs(mean - last_mean);
+    last_mean = mean;
+    return change <= *flow_.until_steady * mean;
+  }
+
+  void tell_speed(long steps) {
+    double bare = 1e300;
+    for (int n = 0; n < 5; ++n) {
+      MPI_Barrier(MPI_COMM_WORLD);
+      const auto start = Clock::now();
+      fluid_.bare_update();
+      double mine = seconds_since(start), slowest = 0;
+      MPI_Allreduce(&mine, &slowest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+      bare = std::min(bare, slowest);
+    }
+    double step = step_seconds_ / static_cast<double>(std::max(1L, steps)), slowest = 0;
+    MPI_Allreduce(&step, &slowest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    if (!speaks_) return;
+    const double cells = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
+    fmt::print(
+        "{} steps, {:.1f} MLUPS, {:.0f} % of the memory's {:.1f} (bare in-place update, measured now)\n",
+        steps, cells / slowest * 1e-6, 100 * bare / slowest, cells / bare * 1e-6);
+  }
+
+  FlowCase flow_;
+  Units units_;
+  Fluid fluid_;
+  bool speaks_;
+  std::optional<FieldOutput> output_;
+  std::ofstream monitor_;
+  std::string details_;
+  double fluid_cells_ = 0, step_seconds_ = 0;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  CLI::App app(
+      "Single-phase flow by lattice Boltzmann: reads one TOML file, runs on any number of MPI ranks.",
+      "suffuse-flow");
+  std::string path;
+  app.add_option("case", path, "case file (docs/lbm/suffuse-flow.md)")->required();
+  app.set_version_flag("--version", SUFFUSE_VERSION);
+  int status = 0;
+  try {
+    app.parse(argc, argv);
+    FlowRun(read_flow_case(path)).run();
+  } catch (const CLI::ParseError& error) {
+    status = rank == 0 ? app.exit(error) : error.get_exit_code();
+    if (status != 0) status = 1;
+  } catch (const std::exception& error) {
+    if (rank == 0) fmt::print(stderr, "\nsuffuse-flow: {}\n", error.what());
+    status = 1;
+  }
+  MPI_Finalize();
+  return status;
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "suffuse/lbm/fluid.h"
+#include "suffuse/lbm/units.h"
+
+namespace suffuse::lbm {
+
+enum class Field { velocity, pressure, density, solid_fraction };
+
+struct FieldOutputSettings {
+  std::string path;  ///< of the HDF5 file; the XDMF file beside it is named like it, with .xdmf
+  std::vector<Field> fields{Field::velocity, Field::pressure};
+  Vec3 origin = Vec3::Zero();  ///< of the box, m
+  bool append = false;         ///< keep the snapshots that are in the file and earlier than the next one
+
+  /// Solid fraction of a cell of this rank, 0 to 1; without it, whole solid cells count.
+  std::function<double(const Index3& cell)> solid_fraction;
+};
+
+/// A time series of fields on the cells, in SI: velocity (m/s), pressure (Pa above the reference), density
+/// (kg/m^3), solid fraction (-). Each snapshot is a group /step_NNNNNNNNNNNN of the HDF5 file, written by all
+/// ranks together in float; ParaView opens the XDMF file. After each snapshot both files are complete: a run
+/// that is killed loses none.
+class FieldOutput {
+ public:
+  FieldOutput(const FieldOutputSettings& settings, const Units& units);
+
+  /// Collective. A snapshot of the same or a later step already in the file (an earlier run's) is replaced or
+  /// dropped.
+  void write(const Fluid& fluid);
+
+ private:
+  FieldOutputSettings settings_;
+  Units units_;
+  bool started_ = false;
+};
+
+}  // namespace suffuse::lbm

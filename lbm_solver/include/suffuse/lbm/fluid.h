@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "suffuse/common/linear_algebra.h"
+#include "suffuse/lbm/boundary.h"
+#include "suffuse/lbm/collision_settings.h"
+#include "suffuse/lbm/decomposition.h"
+#include "suffuse/lbm/instruction_set.h"
+
+namespace suffuse::lbm {
+
+/// What a population is stored as, and computed in. Either way as the deviation from its weight.
+enum class Precision { double_precision, float_precision };
+
+struct FluidSettings {
+  CollisionSettings collision;
+  FaceConditions faces;
+  Precision precision = Precision::double_precision;
+  std::optional<InstructionSet> instruction_set;  ///< else the widest that the machine can run
+};
+
+/// Density and velocity in one cell, lattice units (thesis eqs 3.28, 3.29; the velocity with half of the
+/// force).
+struct FluidPoint {
+  double density = 1;
+  Vec3 velocity = Vec3::Zero();
+};
+
+/// Extremes over all fluid cells of all ranks.
+struct FluidExtremes {
+  double largest_speed = 0;
+  double smallest_density = 1, largest_density = 1;
+  bool finite = true;  ///< false as soon as one cell holds a NaN or an infinity
+};
+
+class FluidCoreBase;
+
+/// A box of fluid on D3Q19, spread over the ranks of a communicator. Everything in lattice units: cells,
+/// steps, and a reference density of one. Cells are numbered over the whole box unless a name says `local`.
+///
+/// Functions that the whole box takes part in (marked collective) must be called on every rank.
+class Fluid {
+ public:
+  /// At rest at density one. A UserError where settings cannot work. Collective.
+  Fluid(const FluidSettings& settings, const Decomposition& decomposition);
+  ~Fluid();
+  Fluid(Fluid&&) noexcept;
+  Fluid& operator=(Fluid&&) noexcept;
+
+  const Decomposition& decomposition() const;
+  const FluidSettings& settings() const;
+  InstructionSet instruction_set() const;
+
+  /// Sets every cell to the equilibrium of a density and a velocity; restarts the step count at zero.
+  void set_equilibrium(const std::function<FluidPoint(const Index3& cell)>& state);
+
+  /// Marks solid cells: `label_of` gives 0 for fluid, 1 to 255 for a solid with that label. It is asked for
+  /// every cell of the rank and the cells around it (through periodic faces and mirrored by free-slip ones).
+  void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of);
+  bool is_solid(const Index3& cell) const;
+  std::uint8_t solid_label(const Index3& cell) const;
+
+  /// Force per cell and step from the next step on, the same everywhere.
+  void set_force(const Vec3& force);
+  const Vec3& force() const;
+
+  /// New values for the faces from the next step on; the kinds must stay what they were.
+  void set_faces(const FaceConditions& faces);
+
+  /// Advances by one step. Collective.
+  void step();
+  void run(long steps) {
+    for (long n = 0; n < steps; ++n) step();
+  }
+  long steps() const;
+
+  /// Reads and writes back every population of this rank, unchanged, with one multiplication and one addition
+  /// each: the fastest that the memory allows, for comparison with a step.
+  void bare_update();
+
+  /// Density and velocity of a cell of this rank; a solid cell is at rest at density one.
+  FluidPoint at(const Index3& cell) const;
+
+  /// The population that a cell of this rank is about to collide, less its weight.
+  double population(int direction, const Index3& cell) const;
+  void set_population(int direction, const Index3& cell, double value);
+
+  /// Which of its two storage forms the fluid is in, and from which step on to count; what a checkpoint must
+  /// keep.
+  bool at_odd_step() const;
+  void set_progress(long steps, bool at_odd_step);
+
+  /// Force of the fluid on the solid cells with a label in the last step, gauge pressure. Collective.
+  Vec3 solid_force(std::uint8_t label) const;
+
+  /// Sum of (density - 1) over the fluid cells, and of the momentum (half of the force included). Collective.
+  double mass_deviation() const;
+  Vec3 momentum() const;
+  FluidExtremes extremes() const;
+
+  /// Memory that this rank holds for populations and labels, bytes.
+  std::size_t bytes() const;
+
+ private:
+  std::unique_ptr<FluidCoreBase> core_;
+};
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,135 @@
+#include "suffuse/lbm/checkpoint.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
+#include "suffuse/lbm/lattice.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+std::size_t size(int n) {
+  return static_cast<std::size_t>(n);
+}
+
+/// This rank's cells in an array (z, y, x).
+ArrayPart cells_of(const Decomposition& d) {
+  const CellBox& box = d.local_box();
+  return {{size(d.cells()[2]), size(d.cells()[1]), size(d.cells()[0])},
+          {size(box.lo[2]), size(box.lo[1]), size(box.lo[0])},
+          {size(box.extent(2)), size(box.extent(1)), size(box.extent(0))}};
+}
+
+/// The same in an array (direction, z, y, x).
+ArrayPart with_direction(const ArrayPart& cells, int direction) {
+  ArrayPart part = cells;
+  part.whole.insert(part.whole.begin(), kDirections);
+  part.offset.insert(part.offset.begin(), size(direction));
+  part.count.insert(part.count.begin(), 1);
+  return part;
+}
+
+std::string name_of(Precision precision) {
+  return precision == Precision::double_precision ? "double" : "float";
+}
+
+template <class T>
+void write_populations(const Fluid& fluid, Hdf5File& file) {
+  const ArrayPart cells = cells_of(fluid.decomposition());
+  file.create_array<T>("/populations", with_direction(cells, 0).whole);
+  for (int i = 0; i < kDirections; ++i) {
+    std::vector<T> values;
+    values.reserve(fluid.decomposition().local_box().volume());
+    for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
+      values.push_back(static_cast<T>(fluid.population(i, {x, y, z})));
+    });
+    file.write("/populations", with_direction(cells, i), values);
+  }
+}
+
+template <class T>
+void read_populations(Fluid& fluid, const Hdf5File& file) {
+  const ArrayPart cells = cells_of(fluid.decomposition());
+  for (int i = 0; i < kDirections; ++i) {
+    const std::vector<T> values = file.read<T>("/populations", with_direction(cells, i));
+    std::size_t n = 0;
+    for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
+      fluid.set_population(i, {x, y, z}, static_cast<double>(values[n++]));
+    });
+  }
+}
+
+void write_labels(const Fluid& fluid, Hdf5File& file) {
+  const ArrayPart cells = cells_of(fluid.decomposition());
+  std::vector<std::uint8_t> labels;
+  for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
+    labels.push_back(fluid.solid_label({x, y, z}));
+  });
+  file.create_array<std::uint8_t>("/solid_labels", cells.whole);
+  file.write("/solid_labels", cells, labels);
+}
+
+void read_labels(Fluid& fluid, const Hdf5File& file) {
+  // One byte a cell of the whole box on every rank: the cells around a sub-box are needed too.
+  ArrayPart whole = cells_of(fluid.decomposition());
+  whole.offset.assign(3, 0);
+  whole.count = whole.whole;
+  const std::vector<std::uint8_t> labels = file.read<std::uint8_t>("/solid_labels", whole);
+  const Index3& n = fluid.decomposition().cells();
+  fluid.set_solids([&](const Index3& c) {
+    return labels[size(c[0]) + size(n[0]) * (size(c[1]) + size(n[1]) * size(c[2]))];
+  });
+}
+
+}  // namespace
+
+void save_state(const Fluid& fluid, const std::string& path) {
+  const Decomposition& d = fluid.decomposition();
+  const std::string unfinished = path + ".part";
+  {
+    Hdf5File file(unfinished, Hdf5File::Mode::create, d.communicator());
+    file.set_attribute("/", "what", std::string("suffuse fluid state, version 1"));
+    file.set_attribute("/", "storage", name_of(fluid.settings().precision));
+    file.set_attribute("/", "steps", static_cast<std::int64_t>(fluid.steps()));
+    file.set_attribute("/", "at_odd_step", static_cast<std::int64_t>(fluid.at_odd_step() ? 1 : 0));
+    if (fluid.settings().precision == Precision::double_precision)
+      write_populations<double>(fluid, file);
+    else
+      write_populations<float>(fluid, file);
+    write_labels(fluid, file);
+  }
+  if (d.rank() == 0) std::filesystem::rename(unfinished, path);
+  MPI_Barrier(d.communicator());
+}
+
+void load_state(Fluid& fluid, const std::string& path) {
+  const Decomposition& d = fluid.decomposition();
+  const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
+  const std::vector<std::size_t> expected = with_direction(cells_of(d), 0).whole,
+                                 found = file.extents("/populations");
+  if (found != expected)
+    throw_user_error(
+        {"fluid restart " + path, "cells (z y x)",
+         fmt::format("{}", fmt::join(found.begin() + std::min<long>(1, static_cast<long>(found.size())),
+                                     found.end(), " ")),
+         fmt::format("be {} as in this run", fmt::join(expected.begin() + 1, expected.end(), " ")), ""});
+  const std::string storage = file.text_attribute("/", "storage"),
+                    wanted = name_of(fluid.settings().precision);
+  if (storage != wanted)
+    throw_user_error({"fluid restart " + path, "storage", storage, "be " + wanted + " as in this run",
+                      "set precision to " + storage});
+  fluid.set_progress(0, false);
+  read_labels(fluid, file);
+  fluid.set_progress(static_cast<long>(file.integer_attribute("/", "steps")),
+                     file.integer_attribute("/", "at_odd_step") != 0);
+  if (storage == "double")
+    read_populations<double>(fluid, file);
+  else
+    read_populations<float>(fluid, file);
+}
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,35 @@
+#include "suffuse/lbm/collision_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::lbm {
+
+void check(const CollisionSettings& settings) {
+  if (!(settings.relaxation_time > 0.5 && std::isfinite(settings.relaxation_time)))
+    throw_user_error({"fluid", "relaxation_time", fmt::format("{}", settings.relaxation_time), "be > 0.5",
+                      "raise the viscosity or the time step"});
+  if (!(settings.magic > 0 && std::isfinite(settings.magic)))
+    throw_user_error({"fluid", "magic", fmt::format("{}", settings.magic), "be > 0",
+                      "0.1875 keeps walls in place, 0.25 is the most stable"});
+  if (!(settings.smagorinsky >= 0 && settings.smagorinsky < 1))
+    throw_user_error({"fluid", "smagorinsky", fmt::format("{}", settings.smagorinsky), "lie in [0, 1)",
+                      "usual values are 0.1 to 0.2"});
+}
+
+std::string name_of(CollisionOperator collision_operator) {
+  switch (collision_operator) {
+    case CollisionOperator::bgk:
+      return "bgk";
+    case CollisionOperator::trt:
+      return "trt";
+    case CollisionOperator::central_moments:
+      return "central_moments";
+  }
+  return "unknown";
+}
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,146 @@
+#include "suffuse/lbm/field_output.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "suffuse/common/hdf5_file.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+struct Snapshot {
+  std::string group;
+  double time_si = 0;
+  std::vector<std::string> fields;
+};
+
+std::size_t size(int n) {
+  return static_cast<std::size_t>(n);
+}
+
+std::string name_of(Field field) {
+  switch (field) {
+    case Field::velocity:
+      return "velocity";
+    case Field::pressure:
+      return "pressure";
+    case Field::density:
+      return "density";
+    case Field::solid_fraction:
+      return "solid_fraction";
+  }
+  return "unknown";
+}
+
+ArrayPart part_of(const Decomposition& d, bool vector) {
+  const CellBox& box = d.local_box();
+  ArrayPart part{{size(d.cells()[2]), size(d.cells()[1]), size(d.cells()[0])},
+                 {size(box.lo[2]), size(box.lo[1]), size(box.lo[0])},
+                 {size(box.extent(2)), size(box.extent(1)), size(box.extent(0))}};
+  if (vector) {
+    part.whole.push_back(3);
+    part.offset.push_back(0);
+    part.count.push_back(3);
+  }
+  return part;
+}
+
+std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units,
+                             const FieldOutputSettings& settings) {
+  std::vector<float> values;
+  values.reserve(fluid.decomposition().local_box().volume() * (field == Field::velocity ? 3 : 1));
+  const auto add = [&](double value) { values.push_back(static_cast<float>(value)); };
+  for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
+    const Index3 cell{x, y, z};
+    if (field == Field::solid_fraction) {
+      add(settings.solid_fraction ? settings.solid_fraction(cell) : fluid.is_solid(cell) ? 1. : 0.);
+      return;
+    }
+    const FluidPoint point = fluid.at(cell);
+    if (field == Field::velocity)
+      for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
+    if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
+    if (field == Field::density) add(units.density_to_si(point.density));
+  });
+  return values;
+}
+
+std::string xdmf_array(const std::string& file, const Snapshot& snapshot, const std::string& field,
+                       const Index3& cells) {
+  const bool vector = field == "velocity";
+  return fmt::format(
+      "        <Attribute Name=\"{0}\" AttributeType=\"{1}\" Center=\"Cell\">\n"
+      "          <DataItem Dimensions=\"{2} {3} {4}{5}\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">"
+      "{6}:/{7}/{0}</DataItem>\n"
+      "        </Attribute>\n",
+      field, vector ? "Vector" : "Scalar", cells[2], cells[1], cells[0], vector ? " 3" : "", file,
+      snapshot.group);
+}
+
+std::string xdmf(const std::string& file, const std::vector<Snapshot>& snapshots, const Index3& cells,
+                 const Vec3& origin, double spacing) {
+  std::string text =
+      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
+      "    <Grid Name=\"fluid\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  for (const Snapshot& snapshot : snapshots) {
+    text += fmt::format(
+        "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n"
+        "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{} {} {}\"/>\n"
+        "        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+        "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
+        "{:.17g}</DataItem>\n"
+        "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
+        "{:.17g}</DataItem>\n"
+        "        </Geometry>\n",
+        snapshot.group, snapshot.time_si, cells[2] + 1, cells[1] + 1, cells[0] + 1, origin[2], origin[1],
+        origin[0], spacing, spacing, spacing);
+    for (const std::string& field : snapshot.fields) text += xdmf_array(file, snapshot, field, cells);
+    text += "      </Grid>\n";
+  }
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+/// Written beside and moved into place, so that a reader never sees half a file.
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path unfinished = path.string() + ".part";
+  std::ofstream(unfinished) << text;
+  std::filesystem::rename(unfinished, path);
+}
+
+}  // namespace
+
+FieldOutput::FieldOutput(const FieldOutputSettings& settings, const Units& units)
+    : settings_(settings), units_(units) {}
+
+void FieldOutput::write(const Fluid& fluid) {
+  const Decomposition& d = fluid.decomposition();
+  const std::filesystem::path path(settings_.path);
+  const std::string group = fmt::format("step_{:012d}", fluid.steps());
+  std::vector<Snapshot> snapshots;
+  {
+    const auto mode = started_ || settings_.append ? Hdf5File::Mode::append : Hdf5File::Mode::create;
+    Hdf5File file(settings_.path, mode, d.communicator());
+    started_ = true;
+    for (const std::string& name : file.names_in("/"))
+      if (name.starts_with("step_") && name >= group) file.remove("/" + name);
+    file.create_group("/" + group);
+    file.set_attribute("/" + group, "time_s", units_.time_to_si(static_cast<double>(fluid.steps())));
+    for (const Field field : settings_.fields) {
+      const ArrayPart part = part_of(d, field == Field::velocity);
+      file.create_array<float>("/" + group + "/" + name_of(field), part.whole);
+      file.write("/" + group + "/" + name_of(field), part, values_of(field, fluid, units_, settings_));
+    }
+    for (const std::string& name : file.names_in("/"))
+      if (name.starts_with("step_"))
+        snapshots.push_back({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
+  }
+  if (d.rank() == 0)
+    write_text(std::filesystem::path(path).replace_extension(".xdmf"),
+               xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()));
+  MPI_Barrier(d.communicator());
+}
+
+}  // namespace suffuse::lbm

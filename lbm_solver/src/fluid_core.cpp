@@ -1,0 +1,170 @@
+#include "fluid_core.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse::lbm {
+
+FluidCoreBase::FluidCoreBase(const FluidSettings& s, const Decomposition& d)
+    : settings(s), decomposition(d), instruction_set(s.instruction_set.value_or(default_instruction_set())) {
+  check(settings.collision);
+  check(settings.faces, decomposition.cells());
+}
+
+FluidPoint FluidCoreBase::at(int x, int y, int z) const {
+  if (is_solid(x, y, z)) return {};
+  double deviation = population(0, x, y, z);
+  Vec3 momentum = 0.5 * force;
+  for (int i = 1; i < kDirections; ++i) {
+    const double g = population(i, x, y, z);
+    deviation += g;
+    momentum += g * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+  }
+  return {1 + deviation, settings.collision.incompressible ? momentum : Vec3(momentum / (1 + deviation))};
+}
+
+template <class T>
+FluidCore<T>::FluidCore(const FluidSettings& s, const Decomposition& d)
+    : FluidCoreBase(s, d), populations_(d.local_box().extents()), halo_(d, s.faces), patches_(d, s.faces) {}
+
+template <class T>
+KernelCall<T> FluidCore<T>::kernel_call() {
+  const CollisionSettings& c = settings.collision;
+  const double half = c.relaxation_time - 0.5;
+  const bool single = c.collision_operator == CollisionOperator::bgk;
+  KernelCall<T> call{};
+  // AA pattern. Even step: each direction from the cell's own slot. Odd step: from the neighbour it comes
+  // from, where the even step left it in the slot of the opposite direction.
+  for (int i = 0; i < kDirections; ++i)
+    call.place[i] = odd ? populations_.slot(opposite(i)) - populations_.offset_of(i) : populations_.slot(i);
+  call.row_pitch = populations_.row_pitch();
+  call.plane_pitch = populations_.plane_pitch();
+  call.cells_x = populations_.cells()[0];
+  call.end_y = populations_.cells()[1];
+  call.end_z = populations_.cells()[2];
+  call.relaxation_time = static_cast<T>(c.relaxation_time);
+  call.even_rate = static_cast<T>(1 / c.relaxation_time);
+  call.odd_rate = static_cast<T>(single ? 1 / c.relaxation_time : half / (0.5 * half + c.magic));
+  call.magic = static_cast<T>(c.magic);
+  call.single_rate = single;
+  call.eddy_coefficient = static_cast<T>(18 * std::sqrt(2.) * c.smagorinsky * c.smagorinsky);
+  call.compressibility = c.incompressible ? T(0) : T(1);
+  for (int a = 0; a < 3; ++a) call.force[a] = static_cast<T>(force[a]);
+  call.solid = labels_ ? labels_->data() : nullptr;
+  return call;
+}
+
+template <class T>
+void FluidCore<T>::sweep(Kernel<T> kernel) {
+  KernelCall<T> call = kernel_call();
+  if (!patches_.has_near_rows()) {
+    kernel(call);
+    return;
+  }
+  // A few rows at a time, about a third of a megabyte: what the kernel wrote is still in the second-level
+  // cache.
+  constexpr std::ptrdiff_t bytes = 300000;
+  const int rows = static_cast<int>(std::max<std::ptrdiff_t>(
+      1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
+  const Index3& cells = populations_.cells();
+  for (int z = 0; z < cells[2]; ++z)
+    for (int y = 0; y < cells[1]; y += rows) {
+      call.begin_z = z;
+      call.end_z = z + 1;
+      call.begin_y = y;
+      call.end_y = std::min(y + rows, cells[1]);
+      kernel(call);
+      patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
+    }
+}
+
+template <class T>
+void FluidCore<T>::step() {
+  const CollisionSettings& c = settings.collision;
+  const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
+                              c.smagorinsky > 0, labels_ != nullptr};
+  sweep(kernel_for<T>(instruction_set, variant));
+  const FaceContext context{force, c.incompressible};
+  // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
+  // solids last, because the exchange also copies places that they then overwrite with what really enters.
+  patches_.read_moments(populations_, settings.faces, context, odd);
+  if (odd) {
+    patches_.extend_fold(populations_, settings.faces, context);
+    halo_.fold(populations_);
+    patches_.fold(populations_, settings.faces, context);
+    if (links_) links_->fold(populations_);
+  } else {
+    patches_.extend_fill(populations_, settings.faces, context);
+    halo_.fill(populations_);
+    patches_.fill(populations_, settings.faces, context);
+    if (links_) links_->fill(populations_);
+  }
+  odd = !odd;
+  ++steps;
+}
+
+template <class T>
+void FluidCore<T>::bare_update() {
+  KernelCall<T> call = kernel_call();
+  call.even_rate = 1;
+  call.force[0] = 0;
+  bare_update_for<T>(instruction_set)(call);
+}
+
+template <class T>
+std::ptrdiff_t FluidCore<T>::place(int direction, int x, int y, int z) const {
+  return populations_.index(x, y, z) - (odd ? populations_.offset_of(direction) : 0);
+}
+
+template <class T>
+double FluidCore<T>::population(int direction, int x, int y, int z) const {
+  return static_cast<double>(
+      populations_.slot(odd ? opposite(direction) : direction)[place(direction, x, y, z)]);
+}
+
+template <class T>
+void FluidCore<T>::set_population(int direction, int x, int y, int z, double value) {
+  populations_.slot(odd ? opposite(direction) : direction)[place(direction, x, y, z)] = static_cast<T>(value);
+}
+
+template <class T>
+void FluidCore<T>::set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) {
+  const CellBox& box = decomposition.local_box();
+  labels_ = std::make_unique<CellLabels>(box.extents(), populations_.row_pitch(), populations_.plane_pitch());
+  bool any = false;
+  const Index3 n = box.extents();
+  for_each_cell({{-1, -1, -1}, {n[0] + 1, n[1] + 1, n[2] + 1}}, [&](int x, int y, int z) {
+    Index3 cell{box.lo[0] + x, box.lo[1] + y, box.lo[2] + z};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const int cells = decomposition.cells()[a];
+      if (cell[a] >= 0 && cell[a] < cells) continue;
+      switch (settings.faces[2 * a + (cell[a] < 0 ? 0 : 1)].kind) {
+        case FaceKind::periodic:
+          cell[a] = (cell[a] + cells) % cells;
+          break;
+        case FaceKind::free_slip:
+        case FaceKind::pressure:
+          cell[a] = cell[a] < 0 ? 0 : cells - 1;
+          break;
+        default:
+          return;  // beyond a wall there is nothing; the face's own rule holds
+      }
+    }
+    const std::uint8_t label = label_of(cell);
+    labels_->at(x, y, z) = label;
+    any |= label != 0;
+  });
+  int mine = any ? 1 : 0, somewhere = 0;
+  MPI_Allreduce(&mine, &somewhere, 1, MPI_INT, MPI_MAX, decomposition.communicator());
+  links_.reset();
+  if (somewhere == 0) {  // the same kernel on every rank, so that results do not depend on their number
+    labels_.reset();
+    return;
+  }
+  links_ = std::make_unique<SolidLinks<T>>(decomposition, settings.faces, populations_, *labels_);
+}
+
+template class FluidCore<double>;
+template class FluidCore<float>;
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <memory>
+
+#include "face_patches.h"
+#include "halo_exchange.h"
+#include "kernel_choice.h"
+#include "populations.h"
+#include "solid_links.h"
+#include "suffuse/lbm/fluid.h"
+
+namespace suffuse::lbm {
+
+/// What Fluid hides: the same for both storage types. Cells here are local: 0 <= x < extent of the sub-box.
+class FluidCoreBase {
+ public:
+  FluidCoreBase(const FluidSettings& settings, const Decomposition& decomposition);
+  virtual ~FluidCoreBase() = default;
+
+  virtual void step() = 0;
+  virtual double population(int direction, int x, int y, int z) const = 0;
+  virtual void set_population(int direction, int x, int y, int z, double value) = 0;
+  virtual void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) = 0;
+  virtual std::uint8_t solid_label(int x, int y, int z) const = 0;
+  bool is_solid(int x, int y, int z) const { return solid_label(x, y, z) != 0; }
+  virtual Vec3 local_solid_force(std::uint8_t label) const = 0;
+  virtual std::size_t bytes() const = 0;
+  virtual void bare_update() = 0;
+
+  FluidPoint at(int x, int y, int z) const;
+
+  FluidSettings settings;
+  Decomposition decomposition;
+  InstructionSet instruction_set;
+  Vec3 force = Vec3::Zero();
+  long steps = 0;
+  bool odd = false;  ///< the next step is an odd one of the AA pattern
+};
+
+/// The populations of one rank and the four parts of a step: kernel, halo exchange, faces, solids.
+template <class T>
+class FluidCore final : public FluidCoreBase {
+ public:
+  FluidCore(const FluidSettings& settings, const Decomposition& decomposition);
+
+  void step() override;
+  void bare_update() override;
+  double population(int direction, int x, int y, int z) const override;
+  void set_population(int direction, int x, int y, int z, double value) override;
+  void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) override;
+  std::uint8_t solid_label(int x, int y, int z) const override {
+    return labels_ ? labels_->at(x, y, z) : std::uint8_t{0};
+  }
+  Vec3 local_solid_force(std::uint8_t label) const override {
+    return links_ ? links_->force(label) : Vec3::Zero();
+  }
+  std::size_t bytes() const override { return populations_.bytes() + (labels_ ? labels_->bytes() : 0); }
+
+ private:
+  KernelCall<T> kernel_call();
+  void sweep(Kernel<T> kernel);
+  std::ptrdiff_t place(int direction, int x, int y, int z) const;
+
+  Populations<T> populations_;
+  HaloExchange<T> halo_;
+  FacePatches<T> patches_;
+  std::unique_ptr<CellLabels> labels_;
+  std::unique_ptr<SolidLinks<T>> links_;
+};
+
+}  // namespace suffuse::lbm

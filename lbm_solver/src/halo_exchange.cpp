@@ -1,0 +1,170 @@
+#include "halo_exchange.h"
+
+#include <algorithm>
+
+namespace suffuse::lbm {
+
+namespace {
+
+/// The five directions that leave through a face.
+std::array<int, 5> leaving(int axis, bool high) {
+  std::array<int, 5> directions{};
+  std::size_t n = 0;
+  for (int i = 0; i < kDirections; ++i)
+    if (kVelocity[i][axis] == (high ? 1 : -1)) directions[n++] = i;
+  return directions;
+}
+
+template <class T>
+void pack(const Populations<T>& populations, const std::array<int, 5>& directions, const CellBox& box,
+          std::vector<T>& buffer) {
+  buffer.resize(5 * box.volume());
+  T* to = buffer.data();
+  for (const int i : directions) {
+    const T* slot = populations.slot(i);
+    for (int z = box.lo[2]; z < box.hi[2]; ++z)
+      for (int y = box.lo[1]; y < box.hi[1]; ++y)
+        to = std::copy_n(slot + populations.index(box.lo[0], y, z), box.extent(0), to);
+  }
+}
+
+template <class T>
+void unpack(Populations<T>& populations, const std::array<int, 5>& directions, const CellBox& box,
+            const std::vector<T>& buffer) {
+  const T* from = buffer.data();
+  for (const int i : directions) {
+    T* slot = populations.slot(i);
+    for (int z = box.lo[2]; z < box.hi[2]; ++z)
+      for (int y = box.lo[1]; y < box.hi[1]; ++y, from += box.extent(0))
+        std::copy_n(from, box.extent(0), slot + populations.index(box.lo[0], y, z));
+  }
+}
+
+template <class T>
+constexpr MPI_Datatype mpi_type();
+template <>
+MPI_Datatype mpi_type<double>() {
+  return MPI_DOUBLE;
+}
+template <>
+MPI_Datatype mpi_type<float>() {
+  return MPI_FLOAT;
+}
+
+}  // namespace
+
+template <class T>
+HaloExchange<T>::HaloExchange(const Decomposition& decomposition, const FaceConditions& faces)
+    : communicator_(decomposition.communicator()) {
+  for (int f = 0; f < kFaces; ++f) {
+    const Face face = static_cast<Face>(f);
+    const auto at = static_cast<std::size_t>(f);
+    const FaceKind kind = faces[at].kind;
+    neighbours_[at] = decomposition.neighbour(face);
+    const bool streams = !decomposition.at_global_face(face) || kind == FaceKind::periodic;
+    pressure_[at] = decomposition.at_global_face(face) && kind == FaceKind::pressure;
+    partners_[at] = streams ? neighbours_[at] == decomposition.rank() ? Partner::self : Partner::other
+                    : kind == FaceKind::free_slip ? Partner::mirror
+                                                  : Partner::none;
+  }
+}
+
+/// The layer of cells at `position` across `axis`: axes before it with their ghost cells, axes after it with
+/// those beyond pressure faces.
+template <class T>
+CellBox HaloExchange<T>::layer(const Index3& cells, int axis, int position) const {
+  CellBox box;
+  for (int a = 0; a < 3; ++a) {
+    const auto at = static_cast<std::size_t>(a);
+    box.lo[at] = a < axis || pressure_[2 * at] ? -1 : 0;
+    box.hi[at] = cells[at] + (a < axis || pressure_[2 * at + 1] ? 1 : 0);
+  }
+  box.lo[static_cast<std::size_t>(axis)] = position;
+  box.hi[static_cast<std::size_t>(axis)] = position + 1;
+  return box;
+}
+
+template <class T>
+void HaloExchange<T>::fill(Populations<T>& populations) {
+  for (int axis = 0; axis < 3; ++axis) run_axis(populations, axis, false);
+}
+
+template <class T>
+void HaloExchange<T>::fold(Populations<T>& populations) {
+  for (int axis = 2; axis >= 0; --axis) run_axis(populations, axis, true);
+}
+
+template <class T>
+void HaloExchange<T>::run_axis(Populations<T>& populations, int axis, bool folding) {
+  exchange(populations, axis, folding);
+  for (const bool high : {false, true})
+    if (partners_[static_cast<std::size_t>(face_at(axis, high))] == Partner::mirror)
+      mirror(populations, axis, high, folding);
+}
+
+template <class T>
+void HaloExchange<T>::mirror(Populations<T>& populations, int axis, bool high, bool folding) {
+  const int cells = populations.cells()[static_cast<std::size_t>(axis)];
+  const CellBox ghost = layer(populations.cells(), axis, high ? cells : -1);
+  Index3 step{0, 0, 0};
+  step[static_cast<std::size_t>(axis)] = high ? -1 : 1;
+  const std::ptrdiff_t inward = populations.index(step[0], step[1], step[2]);
+  for (const int i : leaving(axis, high)) {
+    T* outside = populations.slot(i);
+    T* inside = populations.slot(reflected(i, axis)) + inward;
+    for (int z = ghost.lo[2]; z < ghost.hi[2]; ++z)
+      for (int y = ghost.lo[1]; y < ghost.hi[1]; ++y) {
+        const std::ptrdiff_t row = populations.index(ghost.lo[0], y, z);
+        if (folding)
+          std::copy_n(outside + row, ghost.extent(0), inside + row);
+        else
+          std::copy_n(inside + row, ghost.extent(0), outside + row);
+      }
+  }
+}
+
+template <class T>
+void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool folding) {
+  const int cells = populations.cells()[static_cast<std::size_t>(axis)];
+  MPI_Request requests[4];
+  int pending = 0;
+  // The ghost layer beyond a face and the first layer inside that face's neighbour are the same places of the
+  // whole box, for the directions that leave through the face: filling copies inside -> ghost, folding ghost
+  // -> inside.
+  for (const bool high : {false, true}) {
+    const auto face = static_cast<std::size_t>(face_at(axis, high));
+    const auto against = static_cast<std::size_t>(face_at(axis, !high));
+    const std::array<int, 5> directions = leaving(axis, high);
+    const CellBox ghost = layer(populations.cells(), axis, high ? cells : -1);
+    const CellBox inside = layer(populations.cells(), axis, high ? 0 : cells - 1);
+    const std::size_t from = folding ? face : against, to = folding ? against : face;
+    std::vector<T>&out = send_[high], &in = receive_[high];
+    if (partners_[from] == Partner::other || partners_[from] == Partner::self)
+      pack(populations, directions, folding ? ghost : inside, out);
+    if (partners_[from] == Partner::self) {
+      unpack(populations, directions, folding ? inside : ghost, out);
+      continue;
+    }
+    if (partners_[to] == Partner::other) {
+      in.resize(5 * ghost.volume());
+      MPI_Irecv(in.data(), static_cast<int>(in.size()), mpi_type<T>(), neighbours_[to], 2 * axis + high,
+                communicator_, &requests[pending++]);
+    }
+    if (partners_[from] == Partner::other)
+      MPI_Isend(out.data(), static_cast<int>(out.size()), mpi_type<T>(), neighbours_[from], 2 * axis + high,
+                communicator_, &requests[pending++]);
+  }
+  MPI_Waitall(pending, requests, MPI_STATUSES_IGNORE);
+  for (const bool high : {false, true}) {
+    const auto to = static_cast<std::size_t>(face_at(axis, folding ? !high : high));
+    if (partners_[to] != Partner::other) continue;
+    const CellBox box = folding ? layer(populations.cells(), axis, high ? 0 : cells - 1)
+                                : layer(populations.cells(), axis, high ? cells : -1);
+    unpack(populations, leaving(axis, high), box, receive_[high]);
+  }
+}
+
+template class HaloExchange<double>;
+template class HaloExchange<float>;
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "suffuse/lbm/lattice.h"
+
+namespace suffuse::lbm {
+
+/// What one sweep of a collide-and-stream kernel reads and writes: plain data, in lattice units.
+///
+/// place[i] points at what inner cell (0,0,0) reads for direction i; cell (x,y,z) reads its own at
+/// x + row_pitch*y + plane_pitch*z from there and writes direction i to the place of the opposite direction.
+template <class T>
+struct KernelCall {
+  T* place[kDirections];
+  std::ptrdiff_t row_pitch;
+  std::ptrdiff_t plane_pitch;
+  int cells_x;
+  int begin_y, end_y;
+  int begin_z, end_z;
+
+  T relaxation_time;   ///< of the even (stress) moments
+  T even_rate;         ///< 1/relaxation_time
+  T odd_rate;          ///< rate of the odd moments; equals even_rate for BGK
+  T magic;             ///< TRT's Lambda; with `single_rate` unused
+  bool single_rate;    ///< BGK: under an eddy viscosity the odd rate follows the even one
+  T eddy_coefficient;  ///< 18 sqrt(2) C^2 of Smagorinsky's model
+  T compressibility;   ///< 1; 0 with the incompressible equilibrium
+  T force[3];          ///< per cell and step
+
+  /// 0: fluid; anything else: solid. Indexed like the places, ghost cells included; may be null without
+  /// solids.
+  const std::uint8_t* solid;
+};
+
+/// Which pieces a kernel is compiled with; a scene runs a kernel that has no others.
+struct KernelVariant {
+  bool central_moments = false;
+  bool forced = false;
+  bool eddy_viscosity = false;
+  bool solid_mask = false;
+};
+
+constexpr int kKernelVariants = 16;
+
+constexpr int index_of(const KernelVariant& v) {
+  return (v.central_moments ? 1 : 0) | (v.forced ? 2 : 0) | (v.eddy_viscosity ? 4 : 0) |
+         (v.solid_mask ? 8 : 0);
+}
+
+constexpr KernelVariant variant_of(int index) {
+  return {(index & 1) != 0, (index & 2) != 0, (index & 4) != 0, (index & 8) != 0};
+}
+
+template <class T>
+using Kernel = void (*)(const KernelCall<T>&);
+
+/// Reads the 19 values of each cell, multiplies by `even_rate`, adds `force[0]` and writes them back: what
+/// the memory of the machine allows, the measure of the benchmarks. With 1 and 0 the fluid stays as it is.
+template <class T>
+using BareUpdate = void (*)(const KernelCall<T>&);
+
+}  // namespace suffuse::lbm

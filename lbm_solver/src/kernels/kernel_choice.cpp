@@ -1,0 +1,110 @@
+#include "kernel_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "kernel_tables.h"
+#include "suffuse/common/error.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+template <class T>
+using Table = std::array<Kernel<T>, kKernelVariants>;
+
+template <class T>
+Table<T> table_for(InstructionSet instruction_set) {
+  Table<T> table{};
+  switch (instruction_set) {
+#ifdef SUFFUSE_HAVE_X86_KERNELS
+    case InstructionSet::avx512:
+      avx512::fill_two_rates(table.data());
+      avx512::fill_central_moments(table.data());
+      break;
+    case InstructionSet::avx2:
+      avx2::fill_two_rates(table.data());
+      avx2::fill_central_moments(table.data());
+      break;
+#endif
+    default:
+      portable::fill_two_rates(table.data());
+      portable::fill_central_moments(table.data());
+  }
+  return table;
+}
+
+}  // namespace
+
+std::string name_of(InstructionSet instruction_set) {
+  switch (instruction_set) {
+    case InstructionSet::portable:
+      return "portable";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::avx512:
+      return "avx512";
+  }
+  return "unknown";
+}
+
+std::vector<InstructionSet> available_instruction_sets() {
+  std::vector<InstructionSet> sets{InstructionSet::portable};
+#ifdef SUFFUSE_HAVE_X86_KERNELS
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) sets.push_back(InstructionSet::avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
+    sets.push_back(InstructionSet::avx512);
+#endif
+  return sets;
+}
+
+InstructionSet default_instruction_set() {
+  const std::vector<InstructionSet> sets = available_instruction_sets();
+  const char* wanted = std::getenv("SUFFUSE_INSTRUCTION_SET");
+  if (wanted == nullptr || *wanted == '\0') return sets.back();
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [&](InstructionSet s) { return name_of(s) == wanted; });
+  if (found != sets.end()) return *found;
+  std::string names;
+  for (InstructionSet s : sets) names += (names.empty() ? "" : ", ") + name_of(s);
+  throw_user_error({"environment", "SUFFUSE_INSTRUCTION_SET", wanted, "be one of " + names, ""});
+}
+
+template <class T>
+Kernel<T> kernel_for(InstructionSet instruction_set, const KernelVariant& variant) {
+  static const Table<T> portable_table = table_for<T>(InstructionSet::portable);
+  static const Table<T> avx2_table = table_for<T>(InstructionSet::avx2);
+  static const Table<T> avx512_table = table_for<T>(InstructionSet::avx512);
+  const std::size_t index = static_cast<std::size_t>(index_of(variant));
+  switch (instruction_set) {
+    case InstructionSet::avx512:
+      return avx512_table[index];
+    case InstructionSet::avx2:
+      return avx2_table[index];
+    default:
+      return portable_table[index];
+  }
+}
+
+template <class T>
+BareUpdate<T> bare_update_for(InstructionSet instruction_set) {
+  switch (instruction_set) {
+#ifdef SUFFUSE_HAVE_X86_KERNELS
+    case InstructionSet::avx512:
+      return static_cast<BareUpdate<T>>(&avx512::bare_update);
+    case InstructionSet::avx2:
+      return static_cast<BareUpdate<T>>(&avx2::bare_update);
+#endif
+    default:
+      return static_cast<BareUpdate<T>>(&portable::bare_update);
+  }
+}
+
+template Kernel<double> kernel_for<double>(InstructionSet, const KernelVariant&);
+template Kernel<float> kernel_for<float>(InstructionSet, const KernelVariant&);
+template BareUpdate<double> bare_update_for<double>(InstructionSet);
+template BareUpdate<float> bare_update_for<float>(InstructionSet);
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,81 @@
+#pragma once
+
+/// A few numbers side by side in one vector register, for whatever instruction set this file is compiled for.
+///
+/// GCC's vector extension gives + - * / and comparison; this adds unaligned access and a square
+/// root. The namespace is named after the instruction set, so that no function compiled for a wide one can
+/// be taken by the linker for another's; for the same reason no standard library template is used in these
+/// files.
+
+#if defined(__AVX512F__) || defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+#ifndef SUFFUSE_KERNEL_NAMESPACE
+#error "compile through kernels/kernels.cpp with SUFFUSE_KERNEL_NAMESPACE set to the instruction set's name"
+#endif
+
+namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
+
+#if defined(__AVX512F__)
+inline constexpr int kPackBytes = 64;
+#elif defined(__AVX2__)
+inline constexpr int kPackBytes = 32;
+#else
+inline constexpr int kPackBytes = 16;
+#endif
+
+template <class T>
+struct PackTypes {
+  typedef T Pack __attribute__((vector_size(kPackBytes)));
+  typedef T Unaligned __attribute__((vector_size(kPackBytes), aligned(sizeof(T)), may_alias));
+};
+
+template <class T>
+using Pack = typename PackTypes<T>::Pack;
+
+template <class T>
+inline constexpr int kPackWidth = kPackBytes / static_cast<int>(sizeof(T));
+
+template <class T>
+[[gnu::always_inline]] inline Pack<T> load(const T* from) {
+  return *reinterpret_cast<const typename PackTypes<T>::Unaligned*>(from);
+}
+
+template <class T>
+[[gnu::always_inline]] inline void store(T* to, const Pack<T>& value) {
+  *reinterpret_cast<typename PackTypes<T>::Unaligned*>(to) = value;
+}
+
+template <class T>
+[[gnu::always_inline]] inline Pack<T> broadcast(T value) {
+  return Pack<T>{} + value;
+}
+
+#if defined(__AVX512F__)
+// The masked form with all lanes on: the plain one makes GCC 12 warn about its own header.
+[[gnu::always_inline]] inline Pack<double> square_root(const Pack<double>& v) {
+  return _mm512_maskz_sqrt_pd(static_cast<__mmask8>(-1), v);
+}
+[[gnu::always_inline]] inline Pack<float> square_root(const Pack<float>& v) {
+  return _mm512_maskz_sqrt_ps(static_cast<__mmask16>(-1), v);
+}
+#elif defined(__AVX2__)
+[[gnu::always_inline]] inline Pack<double> square_root(const Pack<double>& v) {
+  return _mm256_sqrt_pd(v);
+}
+[[gnu::always_inline]] inline Pack<float> square_root(const Pack<float>& v) {
+  return _mm256_sqrt_ps(v);
+}
+#else
+[[gnu::always_inline]] inline Pack<double> square_root(Pack<double> v) {
+  for (int lane = 0; lane < kPackWidth<double>; ++lane) v[lane] = __builtin_sqrt(v[lane]);
+  return v;
+}
+[[gnu::always_inline]] inline Pack<float> square_root(Pack<float> v) {
+  for (int lane = 0; lane < kPackWidth<float>; ++lane) v[lane] = __builtin_sqrtf(v[lane]);
+  return v;
+}
+#endif
+
+}  // namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE

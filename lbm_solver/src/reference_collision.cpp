@@ -1,0 +1,131 @@
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+
+#include "suffuse/lbm/lattice.h"
+#include "suffuse/lbm/reference_fluid.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+using CellPopulations = std::array<double, 19>;
+
+Vec3 velocity_of(int i) {
+  return Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+}
+
+/// Thesis eq 3.25 in lattice units.
+double equilibrium(int i, double density, const Vec3& u) {
+  const double cu = velocity_of(i).dot(u);
+  return kWeight[i] * density * (1 + 3 * cu + 4.5 * cu * cu - 1.5 * u.squaredNorm());
+}
+
+/// Guo's source before the factors (1 - rate/2).
+double guo(int i, const Vec3& u, const Vec3& force) {
+  const Vec3 c = velocity_of(i);
+  return kWeight[i] * (3 * (c - u) + 9 * c.dot(u) * c).dot(force);
+}
+
+double eddy_time(const CollisionSettings& settings, const Mat3& stress, double density) {
+  const double tau = settings.relaxation_time, c = settings.smagorinsky;
+  return 0.5 * (tau + std::sqrt(tau * tau + 18 * std::sqrt(2.) * c * c * stress.norm() / density));
+}
+
+CellPopulations two_rates(const CellPopulations& f, const CollisionSettings& settings, double density,
+                          const Vec3& u, const Vec3& force) {
+  double tau = settings.relaxation_time;
+  if (settings.smagorinsky > 0) {
+    Mat3 stress = 0.5 * (u * force.transpose() + force * u.transpose());
+    for (int i = 0; i < kDirections; ++i)
+      stress += (f[static_cast<std::size_t>(i)] - equilibrium(i, density, u)) * velocity_of(i) *
+                velocity_of(i).transpose();
+    tau = eddy_time(settings, stress, density);
+  }
+  const double even_rate = 1 / tau;
+  const double odd_rate = settings.collision_operator == CollisionOperator::bgk
+                              ? even_rate
+                              : 1 / (0.5 + settings.magic / (1 / even_rate - 0.5));
+  CellPopulations result = f;
+  for (int i = 0; i < kDirections; ++i) {
+    const int o = opposite(i);
+    const double fi = f[static_cast<std::size_t>(i)], fo = f[static_cast<std::size_t>(o)];
+    const double ei = equilibrium(i, density, u), eo = equilibrium(o, density, u);
+    const double si = guo(i, u, force), so = guo(o, u, force);
+    result[static_cast<std::size_t>(i)] +=
+        -even_rate * ((fi + fo) / 2 - (ei + eo) / 2) - odd_rate * ((fi - fo) / 2 - (ei - eo) / 2) +
+        (1 - even_rate / 2) * (si + so) / 2 + (1 - odd_rate / 2) * (si - so) / 2;
+  }
+  return result;
+}
+
+/// Powers of each moment: order 0, three of order 1, six of order 2, six of order 3, three of order 4.
+constexpr int kPowers[kDirections][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {2, 0, 0},
+                                         {0, 2, 0}, {0, 0, 2}, {1, 1, 0}, {1, 0, 1}, {0, 1, 1},
+                                         {1, 2, 0}, {1, 0, 2}, {2, 1, 0}, {0, 1, 2}, {2, 0, 1},
+                                         {0, 2, 1}, {2, 2, 0}, {2, 0, 2}, {0, 2, 2}};
+
+CellPopulations central_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
+                                const Vec3& u, const Vec3& force) {
+  using Matrix = Eigen::Matrix<double, kDirections, kDirections>;
+  using Vector = Eigen::Matrix<double, kDirections, 1>;
+  Matrix transform;
+  for (int m = 0; m < kDirections; ++m)
+    for (int i = 0; i < kDirections; ++i) {
+      transform(m, i) = 1;
+      for (int a = 0; a < 3; ++a) transform(m, i) *= std::pow(kVelocity[i][a] - u[a], kPowers[m][a]);
+    }
+  Vector k = transform * Eigen::Map<const Vector>(f.data());
+
+  Mat3 stress;
+  stress << k[4], k[7], k[8], k[7], k[5], k[9], k[8], k[9], k[6];
+  stress -= density / 3 * Mat3::Identity();
+  double tau = settings.relaxation_time;
+  if (settings.smagorinsky > 0) tau = eddy_time(settings, stress, density);
+  const Mat3 trace = stress.trace() / 3 * Mat3::Identity();
+  const Mat3 relaxed = density / 3 * Mat3::Identity() + (1 - 1 / tau) * (stress - trace);
+
+  for (int a = 0; a < 3; ++a) {
+    k[1 + a] += force[a];
+    k[4 + a] = relaxed(a, a);
+  }
+  k[7] = relaxed(0, 1);
+  k[8] = relaxed(0, 2);
+  k[9] = relaxed(1, 2);
+  for (int m = 10; m < 16;
+       ++m) {  // third order: equilibrium 0, source F/3 with the factor (1 - rate/2), rate 1
+    int odd_axis = 0;
+    for (int a = 0; a < 3; ++a)
+      if (kPowers[m][a] == 1) odd_axis = a;
+    k[m] = 0.5 * force[odd_axis] / 3;
+  }
+  for (int m = 16; m < 19; ++m) k[m] = density / 9;
+
+  CellPopulations result;
+  Eigen::Map<Vector>(result.data()) = transform.fullPivLu().solve(k);
+  return result;
+}
+
+}  // namespace
+
+CellPopulations reference_collision(const CellPopulations& populations, const CollisionSettings& settings,
+                                    const Vec3& force) {
+  double density = 0;
+  Vec3 momentum = 0.5 * force;
+  for (int i = 0; i < kDirections; ++i) {
+    density += populations[static_cast<std::size_t>(i)];
+    momentum += populations[static_cast<std::size_t>(i)] * velocity_of(i);
+  }
+  // He & Luo: w_i (rho - 1) does not collide, the rest does so at density one.
+  const double carried = settings.incompressible ? density - 1 : 0;
+  CellPopulations f = populations;
+  for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] -= kWeight[i] * carried;
+  density -= carried;
+  f = settings.collision_operator == CollisionOperator::central_moments
+          ? central_moments(f, settings, density, momentum / density, force)
+          : two_rates(f, settings, density, momentum / density, force);
+  for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] += kWeight[i] * carried;
+  return f;
+}
+
+}  // namespace suffuse::lbm

@@ -1,0 +1,154 @@
+// Checkpoints and field files, written on some ranks and read on others.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "lbm_test_tools.h"
+#include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
+#include "suffuse/lbm/checkpoint.h"
+#include "suffuse/lbm/field_output.h"
+
+using namespace suffuse;
+using namespace suffuse::lbm;
+using namespace suffuse::lbm::test;
+
+namespace {
+
+constexpr Index3 kCells{9, 7, 8};
+
+/// One folder for all ranks, of this run only.
+std::filesystem::path folder() {
+  int ranks = 1, rank = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const std::filesystem::path path =
+      std::filesystem::current_path() / ("lbm_files_test_" + std::to_string(ranks));
+  if (rank == 0) std::filesystem::create_directories(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  return path;
+}
+
+FluidSettings settings_for(Precision precision) {
+  FluidSettings settings;
+  settings.precision = precision;
+  settings.faces = by_axis(FaceKind::no_slip, FaceKind::periodic, FaceKind::pressure);
+  settings.faces[4].density = 1.01;
+  settings.collision.smagorinsky = 0.1;
+  return settings;
+}
+
+Fluid started(const FluidSettings& settings, MPI_Comm communicator) {
+  Fluid fluid(settings, Decomposition::balanced(communicator, kCells));
+  fluid.set_solids([](const Index3& c) { return noise(c, 2, 3) > 0.75 ? std::uint8_t{3} : std::uint8_t{0}; });
+  fluid.set_force(Vec3(1e-4, 0, 0));
+  for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
+    if (fluid.is_solid({x, y, z})) return;
+    for (int i = 0; i < kDirections; ++i) fluid.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
+  });
+  return fluid;
+}
+
+long differences(const Fluid& one, const Fluid& other) {
+  long mine = 0, all = 0;
+  for_each_cell(one.decomposition().local_box(), [&](int x, int y, int z) {
+    if (one.is_solid({x, y, z}) != other.is_solid({x, y, z})) ++mine;
+    for (int i = 0; i < kDirections; ++i)
+      if (!one.is_solid({x, y, z}) && one.population(i, {x, y, z}) != other.population(i, {x, y, z})) ++mine;
+  });
+  MPI_Allreduce(&mine, &all, 1, MPI_LONG, MPI_SUM, MPI_COMM_WORLD);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("a saved fluid goes on bit for bit, on another number of ranks and from either kind of step") {
+  const std::filesystem::path path = folder() / "state.h5";
+  for (const Precision precision : {Precision::double_precision, Precision::float_precision})
+    for (const long saved_at : {4, 7}) {
+      const FluidSettings settings = settings_for(precision);
+      Fluid shared = started(settings, MPI_COMM_WORLD);
+      shared.run(saved_at);
+      save_state(shared, path.string());
+      shared.run(5);
+
+      // Every rank goes on by itself with the whole box.
+      Fluid alone(settings, Decomposition::balanced(MPI_COMM_SELF, kCells));
+      alone.set_force(Vec3(1e-4, 0, 0));
+      load_state(alone, path.string());
+      CHECK(alone.steps() == saved_at);
+      alone.run(5);
+      CHECK(differences(shared, alone) == 0);
+
+      Fluid again = started(settings, MPI_COMM_WORLD);
+      again.step();  // whatever it did before is forgotten
+      load_state(again, path.string());
+      again.run(5);
+      CHECK(differences(again, shared) == 0);
+      CHECK_FALSE(std::filesystem::exists(path.string() + ".part"));
+    }
+}
+
+TEST_CASE("a state of another size or storage type is refused") {
+  const std::filesystem::path path = folder() / "other.h5";
+  save_state(started(settings_for(Precision::double_precision), MPI_COMM_WORLD), path.string());
+  Fluid single(settings_for(Precision::float_precision), Decomposition::balanced(MPI_COMM_WORLD, kCells));
+  CHECK_THROWS_WITH(load_state(single, path.string()),
+                    Catch::Contains("storage = double") && Catch::Contains("set precision to double"));
+  Fluid larger(settings_for(Precision::double_precision), Decomposition::balanced(MPI_COMM_WORLD, {9, 7, 9}));
+  CHECK_THROWS_WITH(load_state(larger, path.string()), Catch::Contains("8 7 9") && Catch::Contains("9 7 9"));
+  CHECK_THROWS_WITH(load_state(larger, (folder() / "absent.h5").string()),
+                    Catch::Contains("cannot read HDF5 file"));
+}
+
+TEST_CASE("fields are written in SI, and a series that is continued keeps what came before") {
+  const std::filesystem::path path = folder() / "flow.h5";
+  std::filesystem::remove(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  UnitsRequest request;
+  request.spacing = 1e-3;
+  request.time_step = 0.01;
+  const Units units(request);
+  FieldOutputSettings output;
+  output.path = path.string();
+  output.fields = {Field::velocity, Field::pressure, Field::density, Field::solid_fraction};
+  Fluid fluid = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
+  {
+    FieldOutput writer(output, units);
+    for (int n = 0; n < 3; ++n) {
+      writer.write(fluid);
+      fluid.run(2);
+    }
+  }
+  output.append = true;
+  Fluid second = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
+  second.run(3);
+  FieldOutput continued(output, units);
+  continued.write(second);  // step 3: keeps 0 and 2, drops 4
+
+  const Hdf5File file(path.string(), Hdf5File::Mode::read, MPI_COMM_WORLD);
+  const std::vector<std::string> expected{"step_000000000000", "step_000000000002", "step_000000000003"};
+  CHECK(file.names_in("/") == expected);
+  CHECK(file.number_attribute("/step_000000000003", "time_s") == Approx(0.03));
+  const CellBox& box = second.decomposition().local_box();
+  const auto n = [](int v) { return static_cast<std::size_t>(v); };
+  ArrayPart part{{8, 7, 9},
+                 {n(box.lo[2]), n(box.lo[1]), n(box.lo[0])},
+                 {n(box.extent(2)), n(box.extent(1)), n(box.extent(0))}};
+  const std::vector<float> pressure = file.read<float>("/step_000000000003/pressure", part);
+  const std::vector<float> density = file.read<float>("/step_000000000003/density", part);
+  const std::vector<float> solid = file.read<float>("/step_000000000003/solid_fraction", part);
+  part.whole.push_back(3);
+  part.offset.push_back(0);
+  part.count.push_back(3);
+  const std::vector<float> velocity = file.read<float>("/step_000000000003/velocity", part);
+  std::size_t cell = 0;
+  for_each_cell(box, [&](int x, int y, int z) {
+    const FluidPoint here = second.at({x, y, z});
+    // rho c_s^2 (dx/dt)^2 and dx/dt by hand; six digits of float.
+    CHECK(pressure[cell] == Approx((here.density - 1) / 3 * 1000 * 0.01).margin(1e-6));
+    CHECK(density[cell] == Approx(1000 * here.density));
+    CHECK(velocity[3 * cell + 1] == Approx(here.velocity[1] * 0.1).margin(1e-8));
+    CHECK(solid[cell] == (second.is_solid({x, y, z}) ? 1.f : 0.f));
+    ++cell;
+  });
+}
