@@ -56,8 +56,8 @@ struct State {
   double axial_ramp = 0;                  ///< 0..1, start of shearing
   double axial_direction = 1;             ///< reverses in cyclic loading
   std::int64_t reversals = 0;
-  double peak_deviator = 0;            ///< largest |q| while shearing, Pa
-  double strain_at_peak = 0;           ///< axial strain there
+  double peak_deviator = 0;   ///< largest |q| while shearing, Pa
+  double strain_at_peak = 0;  ///< axial strain there
   Phase phase = Phase::kApproaching;
 };
 

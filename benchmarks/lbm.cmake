@@ -1,3 +1,0 @@
-add_executable(lbm_step_benchmark lbm_step_benchmark.cpp)
-suffuse_compile_options(lbm_step_benchmark)
-target_link_libraries(lbm_step_benchmark PRIVATE suffuse::lbm_solver benchmark::benchmark)
