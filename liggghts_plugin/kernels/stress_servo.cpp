@@ -52,13 +52,35 @@ void drive_to_cell_pressure(const Settings& s, const Measurement& m, State& stat
         drive(s.target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit, state.bias[i]);
 }
 
-/// The rate of one lateral boundary, from the one before, such that its stress follows a moving target.
-double follow(const Settings& s, const Measurement& m, double rate, double error, double target_rate,
-              double stress_rate, double limit) {
-  const double wanted = error / m.relaxation_time + target_rate;
+/// A wanted change of stress: its distance to go, and the rates of the target and of the stress itself.
+struct Tracking {
+  double error = 0;        // Pa
+  double target_rate = 0;  // Pa/s
+  double stress_rate = 0;  // Pa/s
+};
+
+/// A rate, from the one before, such that a stress follows its moving target.
+double follow(const Settings& s, const Measurement& m, double rate, const Tracking& t, double limit) {
+  const double wanted = t.error / m.relaxation_time + t.target_rate;
   const double correction =
-      kCorrection * (wanted - stress_rate) / (kConstrainedOverBulk * stiffness_of(s, m));
+      kCorrection * (wanted - t.stress_rate) / (kConstrainedOverBulk * stiffness_of(s, m));
   return std::clamp(rate + correction, -limit, limit);
+}
+
+/// Both lateral boundaries towards one target. Their common rate answers for the lateral mean (and so for
+/// p'), their difference for its equal sharing; limited each on its own, a long way to equal stresses does
+/// not disturb the mean.
+void follow_laterally(const Settings& s, const Measurement& m, double target, double target_rate,
+                      double limit, State& state) {
+  const int i = (s.axis + 1) % 3, j = (s.axis + 2) % 3;
+  const Vec3 stress_rate = (m.stress - state.last_stress) / m.interval;
+  const Tracking mean{target - (m.stress[i] + m.stress[j]) / 2, target_rate,
+                      (stress_rate[i] + stress_rate[j]) / 2};
+  const Tracking half_difference{-(m.stress[i] - m.stress[j]) / 2, 0, (stress_rate[i] - stress_rate[j]) / 2};
+  const double common = follow(s, m, (state.rate[i] + state.rate[j]) / 2, mean, limit);
+  const double opposed = follow(s, m, (state.rate[i] - state.rate[j]) / 2, half_difference, limit / 4);
+  state.rate[i] = common + opposed;
+  state.rate[j] = common - opposed;
 }
 
 /// Axial rate as ordered, started smoothly, and no faster than the inertial number allows.
@@ -88,16 +110,13 @@ void shear(const Settings& s, const Measurement& m, State& state) {
       if (i != s.axis) state.rate[i] = -0.5 * axial;
     return;
   }
-  const Vec3 stress_rate = (m.stress - state.last_stress) / m.interval;
   const bool constant_mean = s.path == Path::kConstantMean;
   const double target = constant_mean ? 0.5 * (3 * s.target - m.stress[s.axis]) : s.target;
-  const double target_rate = constant_mean ? -0.5 * stress_rate[s.axis] : 0.0;
+  const double axial_stress_rate = (m.stress[s.axis] - state.last_stress[s.axis]) / m.interval;
   // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
   // the axis.
   const double limit = 2 * std::max(rate_limit(s, m.inertial_time, s.target), std::abs(axial));
-  for (int i = 0; i < 3; ++i)
-    if (i != s.axis)
-      state.rate[i] = follow(s, m, state.rate[i], target - m.stress[i], target_rate, stress_rate[i], limit);
+  follow_laterally(s, m, target, constant_mean ? -0.5 * axial_stress_rate : 0.0, limit, state);
 }
 
 bool reached(const Settings& s, const Measurement& m) {
