@@ -136,9 +136,10 @@ def compare(ours, pairs, grains, box, ranks):
     agree("ap[4]", point_share, 1e-5)
     check(abs(shire - point_shire) > 0.05, "the two alphas agree: the sample does not tell them apart")
     index, exact, tolerant = sliding_by_appendix_g(pairs)
-    # Appendix G's own rule, S >= 1 to the last bit: LIGGGHTS leaves a sliding contact within rounding of its limit, on either side by chance.
-    check(0 < exact < tolerant and 0 < ours["c_sx[1]"] < tolerant, f"S >= 1 exactly: {ours['c_sx[1]']}, by the appendix {exact}, with tolerance {tolerant}")
     agree("s[1]", tolerant, 1e-11)
+    # S >= 1 exactly splits the contacts at their Coulomb limit by rounding, here as in the appendix: only its bounds are sure.
+    surely = sum(s >= 1 + 1e-9 for s in index) / len(index)
+    check(surely <= ours["c_sx[1]"] <= tolerant, f"share by the appendix's rule {ours['c_sx[1]']}, sure {surely}, with tolerance {tolerant}")
     agree("s[3]", sum(index) / len(index), 1e-10)
     for k, number in ((1, z), (2, z_geo), (3, z_mech)):
         agree(f"r[{k}]", number * (3 - 2 * tolerant) / 12, 1e-11)

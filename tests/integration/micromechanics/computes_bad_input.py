@@ -2,7 +2,7 @@
 """computes_bad_input.py --suffuse PROGRAM --mpirun SCRIPT
 
 A mistake in a line of ours ends the program with exit code 1 and one line that names the style, the word and the rule, on one
-rank and on two; and a sample without contacts is no mistake: its values are zeros.
+rank and on two; and a sample without contacts, or without grains yet, is no mistake: its values are zeros.
 """
 import tempfile
 
@@ -13,6 +13,14 @@ TWO_GRAINS = EMPTY_BOX + """
 create_atoms 1 single 1e-3 1e-3 1e-3 units box
 create_atoms 1 single 3e-3 3e-3 3e-3 units box
 set group all diameter 1e-3 density 2650
+"""
+
+# Grains are to come at step 1000: a run before has none.
+NO_GRAINS = EMPTY_BOX + """
+fix one all particletemplate/sphere 11593 atom_type 1 density constant 2650 radius constant 0.5e-3
+fix grading all particledistribution/discrete 32452843 1 one 1.0
+fix insertion all insert/pack seed 32452867 distributiontemplate grading insert_every 1000 start 1000 &
+    volumefraction_region 0.1 region sample
 """
 
 # (line, words that the message must hold)
@@ -70,12 +78,13 @@ def main():
                 check(code == 1, f"`{line}` on {ranks} ranks: exit code {code}\n{out[-500:]}{err[-500:]}")
                 check(len(told) == 1, f"`{line}` on {ranks} ranks: {len(told)} lines name the style:\n" + "\n".join(told))
                 check(all(word in told[0] for word in words), f"`{line}` on {ranks} ranks says only: {told[0]}")
-        for ranks in (1, 2, 3):
-            out = suffuse.must_run(ranks, TWO_GRAINS + ALL, "no_contacts")
-            rows = [line.split() for line in out.splitlines() if len(line.split()) == 17 and line.split()[0].isdigit()]
-            check(len(rows) == 2, f"{ranks} ranks: {len(rows)} thermo rows")
-            check(all(float(value) == 0 for row in rows for value in row[1:]), f"{ranks} ranks: {rows}")
-        print(f"{len(MISTAKES)} mistakes are told in one line; a sample without contacts gives zeros")
+        for name, scene in (("no contacts", TWO_GRAINS), ("no grains", NO_GRAINS)):
+            for ranks in (1, 2, 3):
+                out = suffuse.must_run(ranks, scene + ALL, name.replace(" ", "_"))
+                rows = [line.split() for line in out.splitlines() if len(line.split()) == 17 and line.split()[0].isdigit()]
+                check(len(rows) == 2, f"{name} on {ranks} ranks: {len(rows)} thermo rows")
+                check(all(float(value) == 0 for row in rows for value in row[1:]), f"{name} on {ranks} ranks: {rows}")
+        print(f"{len(MISTAKES)} mistakes are told in one line; loose and empty samples give zeros")
 
 
 if __name__ == "__main__":

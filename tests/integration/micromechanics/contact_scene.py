@@ -85,27 +85,6 @@ class Suffuse:
         self.must_run(1, PREPARE, "prepare")
 
 
-def print_values(words):
-    """Script lines that print each word (c_ID[k], pxx, ...) with all its digits at the next run's end of setup and end."""
-    lines = [f"variable out{k} equal {word}" for k, word in enumerate(words)]
-    text = " ".join(f"${{out{k}}}" for k in range(len(words)))
-    return "\n".join(lines) + f'\nthermo_style custom step {" ".join(words)}\nthermo_modify line one format float %.17g\n', text
-
-
-def thermo_rows(out, count):
-    """Rows of the last run's thermo table, without the step; the table must have `count` columns beside it."""
-    rows = []
-    for line in out.splitlines():
-        words = line.split()
-        try:
-            values = [float(word) for word in words]
-        except ValueError:
-            continue
-        if len(values) == count + 1 and values[0] == int(values[0]):
-            rows.append(values[1:])
-    return rows
-
-
 def read_dump(path, frame=0):
     """One frame of a dump as a list of dictionaries by column name."""
     frames = path.read_text().split("ITEM: TIMESTEP")[1:]
