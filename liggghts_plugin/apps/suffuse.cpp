@@ -93,7 +93,7 @@ void require_a_readable_script(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "-in") != 0 && std::strcmp(argv[i], "-i") != 0) continue;
     const char* file = i + 1 < argc ? argv[i + 1] : "";
-    if (access(file, R_OK) != 0)
+    if (access(file, R_OK) != 0 || std::filesystem::is_directory(file))
       suffuse::throw_user_error(
           {"suffuse", "-in", *file ? file : "nothing", "name a readable script", "check the path"});
     return;

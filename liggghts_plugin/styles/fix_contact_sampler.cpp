@@ -144,6 +144,12 @@ double FixContactSampler::force_exponent() const {
   return pair_->stressStrainExponent();
 }
 
+void FixContactSampler::pre_delete(bool unfixflag) {
+  if (unfixflag)
+    suffuse::throw_user_error({"unfix", "fix", kId, "stay: computes and servos read their contacts from it",
+                               "leave it; it costs nothing while nothing asks for contacts"});
+}
+
 int FixContactSampler::setmask() {
   return FixConst::POST_FORCE;
 }

@@ -62,6 +62,7 @@ class FixContactSampler : public Fix {
   /// Exponent of the normal force in the overlap: 1.5 for Hertz, 1 for a linear spring.
   double force_exponent() const;
 
+  void pre_delete(bool unfixflag) override;
   int setmask() override;
   void init() override;
   void setup(int) override;

@@ -42,6 +42,7 @@ CASES = [
     (SAMPLE + "dem_timestep rayleigh -1 pressure 1e5\n", ["share of the Rayleigh time = -1", "> 0"]),
     (SAMPLE + "timestep 1e-3\ndem_timestep check pressure 1e5\n", ["time step = 0.001 s", "eq 3.3"]),
     (SAMPLE + "dem_timestep guess pressure 1e5\n", ["keyword = guess", "rayleigh, check"]),
+    (SAMPLE + SERVO + "isotropic 200e3\nunfix suffuse_contacts\n", ["fix = suffuse_contacts", "stay"]),
     (SAMPLE + "report nowhere.csv A values p 1\n", ["file = nowhere.csv", "readable"]),
     (SAMPLE + "report wrong.csv A values p 1\n", ["wrong.csv", "header"]),
     (SAMPLE + "report wrong.csv A values p\n", ["report", "be given"]),
@@ -63,6 +64,8 @@ def main():
                 failures.append(f"`{last}` gave {len(lines)} error lines\n{screen[-500:]}")
             else:
                 failures += [f"`{last}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+        code, screen = program.run_file(folder, folder, [], "log.folder", 60)
+        expect(code == 1 and "readable script" in screen, f"a folder as script ended with code {code}")
         code, screen = program.run("", folder, name="empty")
         expect(code == 0, f"an empty script ended with code {code}")
     expect(not failures, "\n".join(failures))
