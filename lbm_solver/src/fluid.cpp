@@ -1,5 +1,6 @@
 #include "suffuse/lbm/fluid.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fluid_core.h"
@@ -93,6 +94,16 @@ void Fluid::set_solids(const std::function<std::uint8_t(const Index3& cell)>& la
     if (!core_->is_solid(x, y, z)) return;
     for (int i = 0; i < kDirections; ++i) core_->set_population(i, x, y, z, 0);
   });
+}
+
+PartialSolidArrays Fluid::use_partial_solids(const PartialSolidSettings& settings) {
+  return core_->use_partial_solids(settings);
+}
+
+double Fluid::solid_fraction(const Index3& cell) const {
+  if (is_solid(cell)) return 1;
+  const Index3& lo = core_->decomposition.local_box().lo;
+  return std::min(1., core_->partial_solid(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]).fraction);
 }
 
 void Fluid::set_faces(const FaceConditions& faces) {

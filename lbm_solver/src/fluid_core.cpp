@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace suffuse::lbm {
 
@@ -20,7 +21,13 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
     deviation += g;
     momentum += g * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
   }
-  return {1 + deviation, settings.collision.incompressible ? momentum : Vec3(momentum / (1 + deviation))};
+  const double density = settings.collision.incompressible ? 1 : 1 + deviation;
+  const PartialSolidCell solids = partial_solid(x, y, z);
+  if (!(solids.fraction > 0)) return {1 + deviation, momentum / density};
+  // What the cell's fluid and solids move at together: the drag's half step (force form) or the share of each
+  // collision gives the same mean (docs key: nobletorczynski1998).
+  const double weight = solid_weight(*partial_solids, solids, settings.collision.relaxation_time);
+  return {1 + deviation, (1 - weight) * momentum / density + weight * solids.momentum / solids.strength};
 }
 
 template <class T>
@@ -51,6 +58,12 @@ KernelCall<T> FluidCore<T>::kernel_call() {
   call.compressibility = c.incompressible ? T(0) : T(1);
   for (int a = 0; a < 3; ++a) call.force[a] = static_cast<T>(force[a]);
   call.solid = labels_ ? labels_->data() : nullptr;
+  if (store_) {
+    store_->give_to(call);
+    call.solid_operator = partial_solids->solid_operator;
+    call.weighting = partial_solids->weighting;
+    call.coefficient = static_cast<T>(partial_solids->own_coefficients ? 1 : partial_solids->coefficient);
+  }
   return call;
 }
 
@@ -79,10 +92,27 @@ void FluidCore<T>::sweep(Kernel<T> kernel) {
 }
 
 template <class T>
+SolidKind FluidCore<T>::solid_kind() const {
+  if (labels_) return SolidKind::mask;
+  if (!store_) return SolidKind::none;
+  return partial_solids->solid_operator == SolidOperator::force ? SolidKind::partial_force
+                                                                : SolidKind::partial_mixed;
+}
+
+template <class T>
+PartialSolidArrays FluidCore<T>::use_partial_solids(const PartialSolidSettings& s) {
+  check(s);
+  if (labels_) throw std::logic_error("FluidCore: a mask of solid cells and partly covered cells together");
+  partial_solids = s;
+  store_ = std::make_unique<PartialSolidStore<T>>(populations_, s.own_coefficients);
+  return store_->arrays();
+}
+
+template <class T>
 void FluidCore<T>::step() {
   const CollisionSettings& c = settings.collision;
   const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
-                              c.smagorinsky > 0, labels_ != nullptr};
+                              c.smagorinsky > 0, solid_kind()};
   sweep(kernel_for<T>(instruction_set, variant));
   const FaceContext context{force, c.incompressible};
   // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
@@ -129,6 +159,7 @@ void FluidCore<T>::set_population(int direction, int x, int y, int z, double val
 
 template <class T>
 void FluidCore<T>::set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) {
+  if (store_) throw std::logic_error("FluidCore: a mask of solid cells and partly covered cells together");
   const CellBox& box = decomposition.local_box();
   labels_ = std::make_unique<CellLabels>(box.extents(), populations_.row_pitch(), populations_.plane_pitch());
   bool any = false;

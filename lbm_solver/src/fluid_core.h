@@ -5,6 +5,7 @@
 #include "face_patches.h"
 #include "halo_exchange.h"
 #include "kernel_choice.h"
+#include "partial_solid_store.h"
 #include "populations.h"
 #include "solid_links.h"
 #include "suffuse/lbm/fluid.h"
@@ -21,6 +22,9 @@ class FluidCoreBase {
   virtual double population(int direction, int x, int y, int z) const = 0;
   virtual void set_population(int direction, int x, int y, int z, double value) = 0;
   virtual void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) = 0;
+  virtual PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings) = 0;
+  /// Sums over the solids of a cell; zero without partly covered cells.
+  virtual PartialSolidCell partial_solid(int x, int y, int z) const = 0;
   virtual std::uint8_t solid_label(int x, int y, int z) const = 0;
   bool is_solid(int x, int y, int z) const { return solid_label(x, y, z) != 0; }
   virtual Vec3 local_solid_force(std::uint8_t label) const = 0;
@@ -34,6 +38,7 @@ class FluidCoreBase {
   InstructionSet instruction_set;
   Vec3 force = Vec3::Zero();
   long steps = 0;
+  std::optional<PartialSolidSettings> partial_solids;
   bool odd = false;  ///< the next step is an odd one of the AA pattern
 };
 
@@ -48,16 +53,23 @@ class FluidCore final : public FluidCoreBase {
   double population(int direction, int x, int y, int z) const override;
   void set_population(int direction, int x, int y, int z, double value) override;
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) override;
+  PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings) override;
+  PartialSolidCell partial_solid(int x, int y, int z) const override {
+    return store_ ? store_->cell(populations_.index(x, y, z)) : PartialSolidCell{};
+  }
   std::uint8_t solid_label(int x, int y, int z) const override {
     return labels_ ? labels_->at(x, y, z) : std::uint8_t{0};
   }
   Vec3 local_solid_force(std::uint8_t label) const override {
     return links_ ? links_->force(label) : Vec3::Zero();
   }
-  std::size_t bytes() const override { return populations_.bytes() + (labels_ ? labels_->bytes() : 0); }
+  std::size_t bytes() const override {
+    return populations_.bytes() + (labels_ ? labels_->bytes() : 0) + (store_ ? store_->bytes() : 0);
+  }
 
  private:
   KernelCall<T> kernel_call();
+  SolidKind solid_kind() const;
   void sweep(Kernel<T> kernel);
   std::ptrdiff_t place(int direction, int x, int y, int z) const;
 
@@ -66,6 +78,7 @@ class FluidCore final : public FluidCoreBase {
   FacePatches<T> patches_;
   std::unique_ptr<CellLabels> labels_;
   std::unique_ptr<SolidLinks<T>> links_;
+  std::unique_ptr<PartialSolidStore<T>> store_;
 };
 
 }  // namespace suffuse::lbm

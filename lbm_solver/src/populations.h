@@ -88,4 +88,21 @@ class CellLabels {
   std::vector<std::uint8_t> labels_;
 };
 
+/// One value a cell with the layout of Populations, without ghost planes: for what a collision reads or
+/// writes in its own cells only.
+template <class V>
+class CellValues {
+ public:
+  CellValues(const Index3& cells, std::ptrdiff_t row_pitch, std::ptrdiff_t plane_pitch)
+      : values_(static_cast<std::size_t>(plane_pitch * (cells[2] - 1) + row_pitch * cells[1]) + 2 * kGuard,
+                V(0)) {}
+  V* data() { return values_.data() + kGuard; }
+  const V* data() const { return values_.data() + kGuard; }
+  std::size_t bytes() const { return values_.size() * sizeof(V); }
+
+ private:
+  static constexpr std::size_t kGuard = 64;
+  std::vector<V> values_;
+};
+
 }  // namespace suffuse::lbm

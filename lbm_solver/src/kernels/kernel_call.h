@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "suffuse/lbm/lattice.h"
+#include "suffuse/lbm/solid_operators.h"
 
 namespace suffuse::lbm {
 
@@ -32,6 +33,23 @@ struct KernelCall {
   /// 0: fluid; anything else: solid. Indexed like the places, ghost cells included; may be null without
   /// solids.
   const std::uint8_t* solid;
+
+  /// Partly covered cells: see partial_solids.h for the arrays. Null without them.
+  const float* fraction;
+  const float* strength;
+  const float* solid_momentum[3];
+  T* exchange[3];
+  SolidOperator solid_operator;
+  SolidWeighting weighting;
+  T coefficient;  ///< that the strengths are still to be multiplied with
+};
+
+/// What kind of solids a kernel is compiled for.
+enum class SolidKind {
+  none,
+  mask,           ///< whole cells
+  partial_force,  ///< partly covered cells by SolidOperator::force
+  partial_mixed,  ///< partly covered cells by one of the SC operators
 };
 
 /// Which pieces a kernel is compiled with; a scene runs a kernel that has no others.
@@ -39,18 +57,18 @@ struct KernelVariant {
   bool central_moments = false;
   bool forced = false;
   bool eddy_viscosity = false;
-  bool solid_mask = false;
+  SolidKind solids = SolidKind::none;
 };
 
-constexpr int kKernelVariants = 16;
+constexpr int kKernelVariants = 32;
 
 constexpr int index_of(const KernelVariant& v) {
   return (v.central_moments ? 1 : 0) | (v.forced ? 2 : 0) | (v.eddy_viscosity ? 4 : 0) |
-         (v.solid_mask ? 8 : 0);
+         8 * static_cast<int>(v.solids);
 }
 
 constexpr KernelVariant variant_of(int index) {
-  return {(index & 1) != 0, (index & 2) != 0, (index & 4) != 0, (index & 8) != 0};
+  return {(index & 1) != 0, (index & 2) != 0, (index & 4) != 0, static_cast<SolidKind>(index / 8)};
 }
 
 template <class T>

@@ -22,8 +22,13 @@ template <int kIndex>
 void run_variant(const KernelCall<Storage>& call) {
   constexpr KernelVariant v = variant_of(kIndex);
   using Operator = typename OperatorOf<v.central_moments, v.forced, v.eddy_viscosity>::Type;
-  if constexpr (v.solid_mask)
+  using ForcedOperator = typename OperatorOf<v.central_moments, true, v.eddy_viscosity>::Type;
+  if constexpr (v.solids == SolidKind::mask)
     stream_collide<Storage, Operator, SolidMask, v.forced>(call);
+  else if constexpr (v.solids == SolidKind::partial_force)
+    stream_collide<Storage, ForcedOperator, PartialForce, true>(call);  // the drag is a force
+  else if constexpr (v.solids == SolidKind::partial_mixed)
+    stream_collide<Storage, Operator, PartialMixed<v.forced>, v.forced>(call);
   else
     stream_collide<Storage, Operator, NoSolid, v.forced>(call);
 }

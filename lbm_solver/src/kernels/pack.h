@@ -42,6 +42,14 @@ template <class T>
   return *reinterpret_cast<const typename PackTypes<T>::Unaligned*>(from);
 }
 
+/// As many floats as a pack of T has lanes, as T.
+template <class T>
+[[gnu::always_inline]] inline Pack<T> load_floats(const float* from) {
+  typedef float Floats __attribute__((vector_size(kPackWidth<T> * 4)));
+  typedef float Unaligned __attribute__((vector_size(kPackWidth<T> * 4), aligned(4), may_alias));
+  return __builtin_convertvector(static_cast<Floats>(*reinterpret_cast<const Unaligned*>(from)), Pack<T>);
+}
+
 template <class T>
 [[gnu::always_inline]] inline void store(T* to, const Pack<T>& value) {
   *reinterpret_cast<typename PackTypes<T>::Unaligned*>(to) = value;

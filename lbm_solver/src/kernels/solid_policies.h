@@ -6,11 +6,10 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
 /// A solid policy is how a collision reads solid cells. It has two hooks, both given the index of the pack's
 /// first cell and how many of its lanes are cells of the row:
-///   force(cells, lanes, call, density deviation, momentum, force)  before the velocity is formed, may add a
-///   force; mix(cells, lanes, call, before, after)                         after the collision, may replace
-///   populations.
+///   force(cells, lanes, call, density, momentum, force)  before the velocity is formed, may add a force;
+///   mix(cells, lanes, call, cell, before, after)         after the collision, may replace populations.
 /// Constants say what a policy uses, so that the others cost nothing. Streaming and boundaries know of
-/// neither: partly covered cells are added by writing one more policy.
+/// neither.
 struct NoSolid {
   static constexpr bool kAddsForce = false;
   static constexpr bool kMixes = false;
@@ -24,13 +23,188 @@ struct SolidMask {
 
   template <class T>
   [[gnu::always_inline]] static void mix(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
-                                         const Pack<T> (&)[kDirections], Pack<T> (&after)[kDirections]) {
+                                         const CellPack<T>&, const Pack<T> (&)[kDirections],
+                                         Pack<T> (&after)[kDirections]) {
     bool any = false;
     for (int lane = 0; lane < lanes; ++lane) any |= call.solid[cells + lane] != 0;
     if (!any) return;
     Pack<T> fluid{};
     for (int lane = 0; lane < lanes; ++lane) fluid[lane] = call.solid[cells + lane] != 0 ? T(0) : T(1);
     for (int i = 0; i < kDirections; ++i) after[i] = fluid != T(0) ? after[i] : Pack<T>{};
+  }
+};
+
+template <class T>
+[[gnu::always_inline]] inline bool any_positive(const Pack<T>& v) {
+  bool any = false;
+#pragma GCC unroll 16
+  for (int lane = 0; lane < kPackWidth<T>; ++lane) any |= v[lane] > T(0);
+  return any;
+}
+
+template <class T>
+[[gnu::always_inline]] inline void store_exchange(const KernelCall<T>& call, std::ptrdiff_t cells, int lanes,
+                                                  const Pack<T> (&exchange)[3]) {
+  for (int a = 0; a < 3; ++a) {
+    if (lanes == kPackWidth<T>)
+      store<T>(call.exchange[a] + cells, exchange[a]);
+    else
+      for (int lane = 0; lane < lanes; ++lane) call.exchange[a][cells + lane] = exchange[a][lane];
+  }
+}
+
+/// B and B times the solids' velocity, from the sums over solids (see SolidWeighting). Where the fractions of
+/// a cell add up to more than one, they shrink in proportion.
+template <class T>
+[[gnu::always_inline]] inline void weigh_solids(std::ptrdiff_t cells, const KernelCall<T>& call,
+                                                const Pack<T>& fraction, Pack<T>& weight,
+                                                Pack<T> (&weight_velocity)[3]) {
+  const T t = call.relaxation_time - T(0.5);
+  const Pack<T> open = fraction < T(1) ? T(1) - fraction : Pack<T>{};
+  Pack<T> factor;  // of strength and momentum
+  if (call.weighting == SolidWeighting::viscosity_independent) {
+    const Pack<T> strength = (call.coefficient * t) * load_floats<T>(call.strength + cells);
+    const Pack<T> whole = open + strength;
+    const Pack<T> inverse = T(1) / (whole > T(0) ? whole : broadcast<T>(1));
+    weight = strength * inverse;
+    factor = (call.coefficient * t) * inverse;
+  } else {
+    const Pack<T> shrink = T(1) / (fraction > T(1) ? fraction : broadcast<T>(1));
+    factor = call.weighting == SolidWeighting::fraction ? shrink : t * shrink / (open + t);
+    weight = fraction * factor;
+  }
+  for (int a = 0; a < 3; ++a) weight_velocity[a] = factor * load_floats<T>(call.solid_momentum[a] + cells);
+}
+
+/// Partly covered cells as a drag inside the cell (SolidOperator::force).
+struct PartialForce {
+  static constexpr bool kAddsForce = true;
+  static constexpr bool kMixes = false;
+
+  template <class T>
+  [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
+                                           const Pack<T>& density, const Pack<T> (&momentum)[3],
+                                           Pack<T> (&force)[3]) {
+    const Pack<T> fraction = load_floats<T>(call.fraction + cells);
+    if (!any_positive<T>(fraction)) return;
+    Pack<T> weight, weight_velocity[3], exchange[3];
+    weigh_solids<T>(cells, call, fraction, weight, weight_velocity);
+    for (int a = 0; a < 3; ++a) {
+      exchange[a] = T(2) * (weight * (momentum[a] + T(0.5) * force[a]) - density * weight_velocity[a]);
+      force[a] = force[a] - exchange[a];
+    }
+    store_exchange<T>(call, cells, lanes, exchange);
+  }
+};
+
+/// Partly covered cells by a solid operator that takes the share B of the collision. A force on the cell acts
+/// on the fluid with 1 - B and on the solid with B.
+template <bool kForced>
+struct PartialMixed {
+  static constexpr bool kAddsForce = false;
+  static constexpr bool kMixes = true;
+
+  /// Even and odd halves of a pair's equilibria less their weights, divided by the weight.
+  template <class T>
+  struct Halves {
+    Pack<T> even, odd;
+  };
+  template <int Direction, class T>
+  [[gnu::always_inline]] static Halves<T> equilibrium(const CellPack<T>& cell, const Pack<T> (&velocity)[3]) {
+    const Pack<T> cu = along<Direction>(velocity);
+    const Pack<T> u2 = velocity[0] * velocity[0] + velocity[1] * velocity[1] + velocity[2] * velocity[2];
+    return {cell.density_deviation + cell.density * (T(4.5) * cu * cu - T(1.5) * u2),
+            T(3) * cell.density * cu};
+  }
+
+  template <class T>
+  struct Mixing {
+    Pack<T> weight, solid_velocity[3];
+    Pack<T> given[3];  ///< momentum that the solid operator gives to the fluid, before the factor B
+  };
+
+  template <int Direction, class T>
+  [[gnu::always_inline]] static void mix_pair(const KernelCall<T>& call, const CellPack<T>& cell,
+                                              Mixing<T>& mixing, const Pack<T> (&before)[kDirections],
+                                              Pack<T> (&after)[kDirections]) {
+    constexpr T w = static_cast<T>(kWeight[Direction]);
+    const Halves<T> solid = equilibrium<Direction, T>(cell, mixing.solid_velocity);
+    const Halves<T> fluid = equilibrium<Direction, T>(cell, cell.velocity);
+    const Pack<T> half_sum = T(0.5) * (before[Direction] + before[Direction + 1]);
+    const Pack<T> half_difference = T(0.5) * (before[Direction] - before[Direction + 1]);
+    Pack<T> even, odd;
+    switch (call.solid_operator) {
+      case SolidOperator::sc1:
+        even = w * (solid.even - fluid.even);
+        odd = w * (solid.odd + fluid.odd) - T(2) * half_difference;
+        break;
+      case SolidOperator::sc2:
+        even = w * solid.even - half_sum + (T(1) - call.even_rate) * (half_sum - w * fluid.even);
+        odd = w * solid.odd - half_difference + (T(1) - call.odd_rate) * (half_difference - w * fluid.odd);
+        break;
+      default:
+        even = Pack<T>{};
+        odd = T(2) * (w * solid.odd - half_difference);
+        break;
+    }
+    const Pack<T> keep = T(1) - mixing.weight;
+    after[Direction] =
+        before[Direction] + keep * (after[Direction] - before[Direction]) + mixing.weight * (even + odd);
+    after[Direction + 1] = before[Direction + 1] + keep * (after[Direction + 1] - before[Direction + 1]) +
+                           mixing.weight * (even - odd);
+    constexpr const int* c = kVelocity[Direction];
+    for (int a = 0; a < 3; ++a) {
+      if (c[a] == 1) mixing.given[a] = mixing.given[a] + T(2) * odd;
+      if (c[a] == -1) mixing.given[a] = mixing.given[a] - T(2) * odd;
+    }
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static void mix(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
+                                         const CellPack<T>& cell, const Pack<T> (&before)[kDirections],
+                                         Pack<T> (&after)[kDirections]) {
+    const Pack<T> fraction = load_floats<T>(call.fraction + cells);
+    if (!any_positive<T>(fraction)) return;
+    Mixing<T> mixing;
+    weigh_solids<T>(cells, call, fraction, mixing.weight, mixing.solid_velocity);
+    const Pack<T> inverse = T(1) / (mixing.weight > T(0) ? mixing.weight : broadcast<T>(1));
+    for (int a = 0; a < 3; ++a) {
+      mixing.solid_velocity[a] = mixing.solid_velocity[a] * inverse;
+      mixing.given[a] = Pack<T>{};
+    }
+    mix_rest(call, cell, mixing, before, after);
+    mix_pair<1, T>(call, cell, mixing, before, after);
+    mix_pair<3, T>(call, cell, mixing, before, after);
+    mix_pair<5, T>(call, cell, mixing, before, after);
+    mix_pair<7, T>(call, cell, mixing, before, after);
+    mix_pair<9, T>(call, cell, mixing, before, after);
+    mix_pair<11, T>(call, cell, mixing, before, after);
+    mix_pair<13, T>(call, cell, mixing, before, after);
+    mix_pair<15, T>(call, cell, mixing, before, after);
+    mix_pair<17, T>(call, cell, mixing, before, after);
+    Pack<T> exchange[3];
+    for (int a = 0; a < 3; ++a) {
+      exchange[a] = -mixing.given[a];
+      if constexpr (kForced) exchange[a] = exchange[a] + cell.force[a];
+      exchange[a] = mixing.weight * exchange[a];
+    }
+    store_exchange<T>(call, cells, lanes, exchange);
+  }
+
+  template <class T>
+  [[gnu::always_inline]] static void mix_rest(const KernelCall<T>& call, const CellPack<T>& cell,
+                                              const Mixing<T>& mixing, const Pack<T> (&before)[kDirections],
+                                              Pack<T> (&after)[kDirections]) {
+    constexpr T w = static_cast<T>(kWeight[0]);
+    const auto rest = [&](const Pack<T>(&u)[3]) -> Pack<T> {
+      return w * (cell.density_deviation - T(1.5) * cell.density * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+    };
+    const Pack<T> solid = rest(mixing.solid_velocity), fluid = rest(cell.velocity);
+    Pack<T> change{};
+    if (call.solid_operator == SolidOperator::sc1) change = solid - fluid;
+    if (call.solid_operator == SolidOperator::sc2)
+      change = solid - before[0] + (T(1) - call.even_rate) * (before[0] - fluid);
+    after[0] = before[0] + (T(1) - mixing.weight) * (after[0] - before[0]) + mixing.weight * change;
   }
 };
 

@@ -33,11 +33,10 @@ template <class Operator, class Solid, bool kForced, class T>
   add_up<T>(g, cell.density_deviation, momentum);
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) cell.force[a] = broadcast<T>(call.force[a]);
-  if constexpr (Solid::kAddsForce)
-    Solid::force(cells, lanes, call, cell.density_deviation, momentum, cell.force);
+  cell.density = T(1) + call.compressibility * cell.density_deviation;
+  if constexpr (Solid::kAddsForce) Solid::force(cells, lanes, call, cell.density, momentum, cell.force);
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) momentum[a] = momentum[a] + T(0.5) * cell.force[a];
-  cell.density = T(1) + call.compressibility * cell.density_deviation;
   const Pack<T> inverse = T(1) / cell.density;
   for (int a = 0; a < 3; ++a) cell.velocity[a] = momentum[a] * inverse;
 
@@ -45,7 +44,7 @@ template <class Operator, class Solid, bool kForced, class T>
   if constexpr (Solid::kMixes)
     for (int i = 0; i < kDirections; ++i) before[i] = g[i];
   Operator::template collide<T>(g, cell, call);
-  if constexpr (Solid::kMixes) Solid::mix(cells, lanes, call, before, g);
+  if constexpr (Solid::kMixes) Solid::mix(cells, lanes, call, cell, before, g);
 }
 
 /// How far ahead of a load its stream is fetched. Nineteen streams are more than the hardware prefetcher of

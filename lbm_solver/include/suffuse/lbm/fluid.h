@@ -11,6 +11,7 @@
 #include "suffuse/lbm/collision_settings.h"
 #include "suffuse/lbm/decomposition.h"
 #include "suffuse/lbm/instruction_set.h"
+#include "suffuse/lbm/partial_solids.h"
 
 namespace suffuse::lbm {
 
@@ -65,6 +66,14 @@ class Fluid {
   bool is_solid(const Index3& cell) const;
   std::uint8_t solid_label(const Index3& cell) const;
 
+  /// From now on cells may be covered in part, by whatever the caller writes to the arrays (all zero at
+  /// first) between steps. They stay valid as long as the fluid, or until the next call of this function. Not
+  /// together with set_solids. A UserError where settings cannot work.
+  PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings);
+
+  /// Share of a cell of this rank that solids cover, 0 to 1; a cell of set_solids counts as one.
+  double solid_fraction(const Index3& cell) const;
+
   /// Force per cell and step from the next step on, the same everywhere.
   void set_force(const Vec3& force);
   const Vec3& force() const;
@@ -83,7 +92,8 @@ class Fluid {
   /// each: the fastest that the memory allows, for comparison with a step.
   void bare_update();
 
-  /// Density and velocity of a cell of this rank; a solid cell is at rest at density one.
+  /// Density and velocity of a cell of this rank; a solid cell is at rest at density one, a partly covered
+  /// one moves at (1-B) u + B us.
   FluidPoint at(const Index3& cell) const;
 
   /// The population that a cell of this rank is about to collide, less its weight.
@@ -98,7 +108,8 @@ class Fluid {
   /// Force of the fluid on the solid cells with a label in the last step, gauge pressure. Collective.
   Vec3 solid_force(std::uint8_t label) const;
 
-  /// Sum of (density - 1) over the fluid cells, and of the momentum (half of the force included). Collective.
+  /// Sum of (density - 1) over the fluid cells, and of the momentum (half of the force included, of the
+  /// solids' exchange nothing). Collective.
   double mass_deviation() const;
   Vec3 momentum() const;
   FluidExtremes extremes() const;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <memory>
+
+#include "suffuse/coupling/particle_port.h"
+#include "suffuse/coupling/settings.h"
+#include "suffuse/coupling/solid_mapping.h"
+
+namespace suffuse::coupling {
+
+/// Where the time of a run went, seconds of this rank.
+struct CoupledTimes {
+  double mapping = 0, fluid = 0, exchange = 0, grains = 0, output = 0;
+};
+
+/// A box of fluid with grains in it: every step maps the grains to cells, advances the fluid by one step,
+/// hands what it exerted to the grains and advances these.
+///
+/// Positions are SI with `origin` at the low corner of the fluid's box.
+class CoupledSimulation {
+ public:
+  /// Collective. A UserError where settings cannot work together.
+  CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
+                    const Vec3& origin, ParticlePort& grains);
+
+  /// One fluid step and the DEM steps that belong to it. Collective.
+  void step();
+
+  /// Maps the grains as they are and sets the memory of each, without advancing anything; `step` does it by
+  /// itself. For output before the first step. Collective.
+  void map();
+
+  lbm::Fluid& fluid() { return fluid_; }
+  const lbm::Fluid& fluid() const { return fluid_; }
+  const lbm::Units& units() const { return units_; }
+  const CoupledSettings& settings() const { return settings_; }
+  const SolidMapping& mapping() const { return mapping_; }
+  const Vec3& origin() const { return origin_; }
+  ParticlePort& grains() { return grains_; }
+  int substeps() const { return substeps_; }
+  double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
+  CoupledTimes& times() { return times_; }
+
+  /// New values from the next step on.
+  void set_faces(const lbm::FaceConditions& faces) { fluid_.set_faces(faces); }
+  void set_gravity(const Vec3& si);
+  void set_pressure_gradient(const Vec3& si);
+
+ private:
+  void hand_over();
+
+  CoupledSettings settings_;
+  lbm::Units units_;
+  Vec3 origin_;
+  ParticlePort& grains_;
+  lbm::Fluid fluid_;
+  SolidMapping mapping_;
+  int substeps_ = 1;
+  std::vector<double> force_, torque_;
+  CoupledTimes times_;
+};
+
+}  // namespace suffuse::coupling

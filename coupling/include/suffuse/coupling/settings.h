@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+
+#include "suffuse/common/linear_algebra.h"
+#include "suffuse/lbm/fluid.h"
+#include "suffuse/lbm/units.h"
+
+namespace suffuse::coupling {
+
+/// How the part of a cell that a sphere covers is computed.
+enum class FractionMethod {
+  exact,     ///< plane cut of the cell with the sphere's curvature; smooth in the position
+  linear,    ///< linear in the distance from the surface (docs key: joneswilliams2017); smooth, fastest
+  subcells,  ///< share of n^3 points inside (Appendix C's code: 5^3)
+};
+
+struct SolidSettings {
+  lbm::PartialSolidSettings cells;
+  bool automatic_coefficient = true;  ///< calibrated, from each grain's diameter and neighbourhood
+  FractionMethod fraction = FractionMethod::exact;
+  int subcells = 5;              ///< per edge, for FractionMethod::subcells
+  double remap_distance = 1e-3;  ///< cells: a grain that moved less is not mapped again
+  double remap_velocity = 1e-7;  ///< cells a step: nor one whose velocity changed by less
+};
+
+enum class Switch { off, on, automatic };
+
+/// Effects that a scene may call for; what `automatic` decides is in effects.h.
+struct EffectSettings {
+  Switch turbulence = Switch::automatic;   ///< Smagorinsky's eddy viscosity
+  Switch lubrication = Switch::automatic;  ///< forces in gaps that the lattice does not resolve
+  Switch buoyancy = Switch::on;            ///< displaced fluid's weight on grains under `gravity`
+  Switch rotation = Switch::on;            ///< torque of the fluid on grains
+};
+
+struct CoupledSettings {
+  lbm::UnitsRequest units;
+  lbm::FluidSettings fluid;  ///< its relaxation time is set from the units
+  SolidSettings solids;
+  EffectSettings effects;
+  int substeps = 0;                       ///< DEM steps a fluid step; 0: from the DEM time step, as it is
+  bool average_force = false;             ///< loads are the mean of the last two fluid steps'
+  double virtual_mass = 0;                ///< Cv: Cv rho_f V on both sides of a grain's equation of motion
+  Vec3 gravity = Vec3::Zero();            ///< m/s^2; pressures are those in excess of the hydrostatic one
+  Vec3 pressure_gradient = Vec3::Zero();  ///< Pa/m along the flow
+};
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,62 @@
+#include "suffuse/lbm/partial_solids.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::lbm {
+
+std::string name_of(SolidOperator solid_operator) {
+  switch (solid_operator) {
+    case SolidOperator::sc1:
+      return "sc1";
+    case SolidOperator::sc2:
+      return "sc2";
+    case SolidOperator::sc3:
+      return "sc3";
+    case SolidOperator::force:
+      return "force";
+  }
+  return "unknown";
+}
+
+std::string name_of(SolidWeighting weighting) {
+  switch (weighting) {
+    case SolidWeighting::fraction:
+      return "fraction";
+    case SolidWeighting::noble_torczynski:
+      return "noble_torczynski";
+    case SolidWeighting::viscosity_independent:
+      return "viscosity_independent";
+  }
+  return "unknown";
+}
+
+void check(const PartialSolidSettings& settings) {
+  if (settings.weighting != SolidWeighting::viscosity_independent && settings.own_coefficients)
+    throw_user_error({"fluid solids", "coefficient", "given", "come with weighting viscosity_independent",
+                      "the other weightings have none"});
+  if (!settings.own_coefficients && !(settings.coefficient > 0))
+    throw_user_error({"fluid solids", "coefficient", fmt::format("{:g}", settings.coefficient), "be > 0",
+                      "`auto` takes the calibrated one"});
+}
+
+double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell& cell,
+                    double relaxation_time) {
+  if (!(cell.fraction > 0)) return 0;
+  const double t = relaxation_time - 0.5, fraction = std::min(cell.fraction, 1.);
+  switch (settings.weighting) {
+    case SolidWeighting::fraction:
+      return fraction;
+    case SolidWeighting::noble_torczynski:
+      return fraction * t / (1 - fraction + t);
+    case SolidWeighting::viscosity_independent:
+      break;
+  }
+  const double strength = settings.own_coefficients ? cell.strength : settings.coefficient * cell.strength;
+  return strength * t / (1 - fraction + strength * t);
+}
+
+}  // namespace suffuse::lbm
