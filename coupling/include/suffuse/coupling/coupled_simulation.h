@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
@@ -13,22 +13,26 @@ struct CoupledTimes {
   double mapping = 0, fluid = 0, exchange = 0, grains = 0, output = 0;
 };
 
-/// A box of fluid with grains in it: every step maps the grains to cells, advances the fluid by one step,
+/// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
 /// hands what it exerted to the grains and advances these.
 ///
 /// Positions are SI with `origin` at the low corner of the fluid's box.
 class CoupledSimulation {
  public:
-  /// Collective. A UserError where settings cannot work together.
+  /// Collective. The fluid is at rest, no grain is mapped yet. A UserError where settings cannot work
+  /// together.
   CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                     const Vec3& origin, ParticlePort& grains);
 
   /// One fluid step and the DEM steps that belong to it. Collective.
   void step();
 
-  /// Maps the grains as they are and sets the memory of each, without advancing anything; `step` does it by
-  /// itself. For output before the first step. Collective.
+  /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
   void map();
+
+  /// Brings the loads in the port's memory up to date where `step` left them because nothing moves the
+  /// grains. Collective.
+  void refresh_loads();
 
   lbm::Fluid& fluid() { return fluid_; }
   const lbm::Fluid& fluid() const { return fluid_; }
@@ -37,17 +41,24 @@ class CoupledSimulation {
   const SolidMapping& mapping() const { return mapping_; }
   const Vec3& origin() const { return origin_; }
   ParticlePort& grains() { return grains_; }
+
+  /// DEM steps a fluid step.
   int substeps() const { return substeps_; }
   double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
-  CoupledTimes& times() { return times_; }
 
-  /// New values from the next step on.
+  /// Spheres (copies included) that the last step mapped anew on this rank.
+  std::size_t remapped() const { return remapped_; }
+  CoupledTimes& times() { return times_; }
+  const CoupledTimes& times() const { return times_; }
+
+  /// New values from the next step on, SI.
   void set_faces(const lbm::FaceConditions& faces) { fluid_.set_faces(faces); }
-  void set_gravity(const Vec3& si);
+  void set_gravity(const Vec3& si) { settings_.gravity = si; }
   void set_pressure_gradient(const Vec3& si);
 
  private:
-  void hand_over();
+  void collect_exchange(const GrainArrays& grains);
+  void hand_over(const GrainArrays& grains);
 
   CoupledSettings settings_;
   lbm::Units units_;
@@ -56,6 +67,9 @@ class CoupledSimulation {
   lbm::Fluid fluid_;
   SolidMapping mapping_;
   int substeps_ = 1;
+  std::size_t remapped_ = 0;
+  bool loads_are_current_ = true;
+  std::vector<LatticeSphere> spheres_;
   std::vector<double> force_, torque_;
   CoupledTimes times_;
 };

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 namespace suffuse::coupling {
@@ -16,8 +15,6 @@ struct GrainArrays {
   const double* radius = nullptr;            ///< total, m
   const double* mass = nullptr;              ///< owned, kg
   const int* id = nullptr;                   ///< total; a copy has its owner's
-  const std::uint8_t* mobile =
-      nullptr;  ///< total; 0: nothing moves this grain, its load is not needed every step
 };
 
 /// What stays with a grain from one fluid step to the next, wherever it migrates; SI, owned grains only.
@@ -43,6 +40,10 @@ class ParticlePort {
   virtual void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) = 0;
 
   virtual GrainMemory memory() = 0;
+
+  /// Does anything move any grain on any rank? Otherwise loads are computed when asked for, and `advance` is
+  /// never called.
+  virtual bool any_mobile() const = 0;
 
   /// Grains' step, s.
   virtual double time_step() const = 0;

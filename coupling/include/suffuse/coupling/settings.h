@@ -3,17 +3,11 @@
 #include <string>
 
 #include "suffuse/common/linear_algebra.h"
+#include "suffuse/coupling/mapped_sphere.h"
 #include "suffuse/lbm/fluid.h"
 #include "suffuse/lbm/units.h"
 
 namespace suffuse::coupling {
-
-/// How the part of a cell that a sphere covers is computed.
-enum class FractionMethod {
-  exact,     ///< plane cut of the cell with the sphere's curvature; smooth in the position
-  linear,    ///< linear in the distance from the surface (docs key: joneswilliams2017); smooth, fastest
-  subcells,  ///< share of n^3 points inside (Appendix C's code: 5^3)
-};
 
 struct SolidSettings {
   lbm::PartialSolidSettings cells;

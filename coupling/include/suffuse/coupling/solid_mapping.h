@@ -3,53 +3,55 @@
 #include <cstddef>
 #include <vector>
 
-#include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/decomposition.h"
 
 namespace suffuse::coupling {
 
-/// A sphere in lattice units: cells of the whole box, cell (0,0,0) from 0 to 1; cells a step.
-struct LatticeSphere {
-  double position[3];
-  double radius = 0;
-  double velocity[3];
-  double angular_velocity[3];  ///< radians a step
-  double coefficient = 1;      ///< k of the viscosity-independent weighting
-  int id = 0;
-};
-
-/// What a grain's cells handed to it in the last fluid step, lattice units; torque about the grain's centre.
-struct LatticeLoad {
-  double force[3];
-  double torque[3];
-};
-
-/// Writes which part of each cell is covered, and how fast it moves, for the collision to read; and adds up
-/// afterwards what the cells of each grain received.
+/// Writes which part of each cell is covered and how fast it moves, for the collision to read; and adds up
+/// afterwards what the cells of each sphere received.
 ///
-/// Planes of cells in which no grain moved are left as they are. Any number of grains may share a cell: where
-/// their fractions add up to more than one they shrink in proportion, and the exchange of a cell is shared in
-/// proportion to the grains' strengths (fraction times coefficient).
+/// Planes of cells (constant z) in which no sphere moved are left as they are. Any number of spheres may
+/// share a cell: where their fractions add up to more than one they shrink in proportion, and the exchange of
+/// a cell is shared in proportion to the strengths (fraction times coefficient). Fractions are multiples of
+/// 2^-22 and strengths with coefficients of 2^-18, so that their sums are exact in any order.
 class SolidMapping {
  public:
-  SolidMapping(const SolidSettings& settings, const lbm::PartialSolidArrays& arrays,
-               const lbm::CellBox& local_box);
+  SolidMapping(const SolidSettings& settings, lbm::InstructionSet instruction_set,
+               const lbm::PartialSolidArrays& arrays, const lbm::CellBox& local_box);
 
-  /// Brings the cells up to date. Returns how many spheres were mapped anew. Spheres that reach no cell of
-  /// this rank are skipped.
+  /// Brings the cells up to date. Returns how many of the spheres moved (all of them after one came, went or
+  /// changed its place in the list).
   std::size_t update(const std::vector<LatticeSphere>& spheres);
 
-  /// Sums over the cells of sphere n of the last update (zero for one that reaches no cell of this rank).
+  /// Sum over the cells of sphere n of the last update; zero for one that reaches no cell of this rank.
   LatticeLoad load_of(std::size_t n) const;
 
-  /// Sum of the fractions of sphere n in this rank's cells: its volume, in cells.
+  /// Sum of the fractions of sphere n in this rank's cells: its volume there, in cells.
   double volume_of(std::size_t n) const;
 
+  std::size_t spheres() const { return mapped_.size(); }
+  /// The order in which loads are read fastest: along z.
+  const std::vector<std::size_t>& order() const { return order_; }
   std::size_t bytes() const;
 
  private:
-  // see solid_mapping.cpp
+  void place(const LatticeSphere& sphere, MappedSphere& mapped) const;
+  bool same_list(const std::vector<LatticeSphere>& spheres) const;
+  bool moved(const LatticeSphere& now, const LatticeSphere& then) const;
+  void mark(const MappedSphere& mapped, std::vector<char>& planes) const;
+  void give_entries();
+  void sort_along_z();
+  void write_planes(const std::vector<char>& dirty);
+  void clear_plane(int z) const;
+
+  SolidSettings settings_;
+  lbm::InstructionSet instruction_set_;
+  lbm::PartialSolidArrays arrays_;
+  lbm::CellBox box_;
+  std::vector<MappedSphere> mapped_;
+  std::vector<std::size_t> order_;
+  std::vector<float> entries_;
 };
 
 }  // namespace suffuse::coupling

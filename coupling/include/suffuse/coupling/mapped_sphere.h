@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+namespace suffuse::coupling {
+
+/// How the part of a cell that a sphere covers is computed.
+enum class FractionMethod {
+  exact,     ///< plane cut of the cell with the sphere's curvature; smooth in the position
+  linear,    ///< linear in the distance from the surface (docs key: joneswilliams2017); smooth, fastest
+  subcells,  ///< share of n^3 points inside (Appendix C's code: 5^3)
+};
+
+/// A sphere in lattice units: cells of the whole box, cell (0,0,0) reaching from 0 to 1; cells a step.
+struct LatticeSphere {
+  double position[3]{};
+  double radius = 0;
+  double velocity[3]{};
+  double angular_velocity[3]{};  ///< radians a step
+  double coefficient = 1;        ///< k of the viscosity-independent weighting, used with own_coefficients
+  int id = 0;
+};
+
+/// What a sphere's cells handed to it in the last fluid step, lattice units; torque about its centre.
+struct LatticeLoad {
+  double force[3]{};
+  double torque[3]{};
+};
+
+/// A sphere as it was last mapped, and which cells of this rank it may reach: rows of packs of eight cells,
+/// numbered from the low corner of the sub-box.
+struct MappedSphere {
+  LatticeSphere sphere;
+  int x_start = 0, packs = 0;  ///< no packs: none of this rank's cells
+  int y_begin = 0, y_end = 0, z_begin = 0, z_end = 0;
+  std::size_t first_entry = 0;  ///< strengths of its cells, eight a pack, x fastest
+};
+
+}  // namespace suffuse::coupling

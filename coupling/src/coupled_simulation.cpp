@@ -1,0 +1,158 @@
+#include "suffuse/coupling/coupled_simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "suffuse/common/error.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Units& units) {
+  lbm::FluidSettings fluid = settings.fluid;
+  fluid.collision.relaxation_time = units.relaxation_time();
+  return fluid;
+}
+
+/// DEM steps a fluid step: as asked for, or as many as the grains' time step needs. The two clocks must agree
+/// to a part in a million, or forces would act for another time than the fluid's.
+int substeps_for(const CoupledSettings& settings, const lbm::Units& units, double grain_step) {
+  const double ratio = units.time_step() / grain_step;
+  const int substeps =
+      settings.substeps > 0 ? settings.substeps : std::max(1, static_cast<int>(std::lround(ratio)));
+  if (std::abs(ratio / substeps - 1) > 1e-6)
+    throw_user_error(
+        {"lbm couple", "substeps", fmt::format("{} of {:.8g} s", substeps, grain_step),
+         fmt::format("fill one fluid step of {:.8g} s", units.time_step()),
+         fmt::format("timestep {:.10g}", units.time_step() / std::max(1., std::ceil(ratio - 1e-9)))});
+  return substeps;
+}
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(MPI_Wtime()) {}
+  ~Stopwatch() { total_ += MPI_Wtime() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  double start_;
+};
+
+Vec3 vector_at(const double* values, int n) {
+  return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
+}
+
+}  // namespace
+
+CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
+                                     const Vec3& origin, ParticlePort& grains)
+    : settings_(settings),
+      units_(settings.units),
+      origin_(origin),
+      grains_(grains),
+      fluid_(fluid_settings(settings, units_), decomposition),
+      mapping_(settings.solids, fluid_.instruction_set(), fluid_.use_partial_solids(settings.solids.cells),
+               decomposition.local_box()),
+      substeps_(substeps_for(settings, units_, grains.time_step())) {
+  set_pressure_gradient(settings.pressure_gradient);
+}
+
+void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
+  settings_.pressure_gradient = si;
+  fluid_.set_force(units_.force_density_to_lattice(si));
+}
+
+void CoupledSimulation::map() {
+  const GrainArrays grains = grains_.grains();
+  const Stopwatch watch(times_.mapping);
+  const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
+               turn = units_.time_step();
+  spheres_.resize(static_cast<std::size_t>(grains.total));
+  for (int n = 0; n < grains.total; ++n) {
+    LatticeSphere& sphere = spheres_[static_cast<std::size_t>(n)];
+    for (int a = 0; a < 3; ++a) {
+      sphere.position[a] = (grains.position[3 * n + a] - origin_[a]) * length;
+      sphere.velocity[a] = grains.velocity[3 * n + a] * speed;
+      sphere.angular_velocity[a] = grains.angular_velocity[3 * n + a] * turn;
+    }
+    sphere.radius = grains.radius[n] * length;
+    sphere.id = grains.id[n];
+    sphere.coefficient = settings_.solids.cells.coefficient;
+  }
+  remapped_ = mapping_.update(spheres_);
+}
+
+/// Exchange of each sphere's cells on all ranks, summed at its owner, in SI.
+void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
+  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], newton_metre = newton * units_.spacing();
+  force_.assign(3 * static_cast<std::size_t>(grains.total), 0);
+  torque_.assign(force_.size(), 0);
+  for (const std::size_t n : mapping_.order()) {
+    const LatticeLoad load = mapping_.load_of(n);
+    for (std::size_t a = 0; a < 3; ++a) {
+      force_[3 * n + a] = load.force[a] * newton;
+      torque_[3 * n + a] = load.torque[a] * newton_metre;
+    }
+  }
+  grains_.sum_over_copies(force_, torque_);
+}
+
+void CoupledSimulation::hand_over(const GrainArrays& grains) {
+  LoadRule rule;
+  rule.fluid_density = units_.density();
+  rule.time_step = units_.time_step();
+  if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
+  rule.average = settings_.average_force;
+  rule.rotation = settings_.effects.rotation != Switch::off;
+  const GrainMemory memory = grains_.memory();
+  for (int n = 0; n < grains.owned; ++n) {
+    const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};
+    const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
+                         vector_at(grains.angular_velocity, n)};
+    double* h = memory.history + kHistoryLength * n;
+    const GrainHistory before{
+        h[12] != 0, vector_at(h, 0), vector_at(h, 1), {vector_at(h, 2), vector_at(h, 3)}};
+    const Load load = hydrodynamic_load(exchange, now, before, rule);
+    for (int a = 0; a < 3; ++a) {
+      memory.force[3 * n + a] = load.force[a];
+      memory.torque[3 * n + a] = load.torque[a];
+      h[a] = now.velocity[a];
+      h[3 + a] = now.angular_velocity[a];
+      h[6 + a] = exchange.force[a];
+      h[9 + a] = exchange.torque[a];
+    }
+    h[12] = 1;
+  }
+  loads_are_current_ = true;
+}
+
+void CoupledSimulation::refresh_loads() {
+  int stale = loads_are_current_ ? 0 : 1, any = 0;
+  MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  if (any == 0) return;
+  const GrainArrays grains = grains_.grains();
+  const Stopwatch watch(times_.exchange);
+  collect_exchange(grains);
+  hand_over(grains);
+}
+
+void CoupledSimulation::step() {
+  map();
+  {
+    const Stopwatch watch(times_.fluid);
+    fluid_.step();
+  }
+  loads_are_current_ = false;
+  if (!grains_.any_mobile()) return;
+  refresh_loads();
+  const Stopwatch watch(times_.grains);
+  grains_.advance(substeps_);
+}
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,155 @@
+#pragma once
+
+/// Which part of a cell a sphere covers, for eight neighbouring cells at a time. Lengths in cells.
+
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+#include "suffuse/coupling/mapped_sphere.h"
+
+namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
+
+inline constexpr int kLanes = 8;
+typedef float Floats __attribute__((vector_size(32)));
+typedef double Doubles __attribute__((vector_size(64)));
+typedef float UnalignedFloats __attribute__((vector_size(32), aligned(4), may_alias));
+typedef double UnalignedDoubles __attribute__((vector_size(64), aligned(8), may_alias));
+inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
+
+[[gnu::always_inline]] inline Floats load(const float* from) {
+  return *reinterpret_cast<const UnalignedFloats*>(from);
+}
+[[gnu::always_inline]] inline void store(float* to, const Floats& value) {
+  *reinterpret_cast<UnalignedFloats*>(to) = value;
+}
+[[gnu::always_inline]] inline Floats square_root(Floats v) {
+#ifdef __AVX__
+  return _mm256_sqrt_ps(v);
+#else
+  for (int lane = 0; lane < kLanes; ++lane) v[lane] = __builtin_sqrtf(v[lane]);
+  return v;
+#endif
+}
+[[gnu::always_inline]] inline Floats lesser(const Floats& a, const Floats& b) {
+  return a < b ? a : b;
+}
+[[gnu::always_inline]] inline Floats greater(const Floats& a, const Floats& b) {
+  return a > b ? a : b;
+}
+[[gnu::always_inline]] inline Floats magnitude(const Floats& v) {
+  return greater(v, -v);
+}
+[[gnu::always_inline]] inline Floats positive_cubed(const Floats& v) {
+  const Floats p = v > 0.f ? v : Floats{};
+  return p * p * p;
+}
+[[gnu::always_inline]] inline bool all_true(const Floats& mask_value) {
+  bool all = true;
+#pragma GCC unroll 8
+  for (int lane = 0; lane < kLanes; ++lane) all &= mask_value[lane] != 0;
+  return all;
+}
+
+/// Half of a cell's diagonal: beyond radius + this nothing is covered, within radius - this all is.
+inline constexpr float kHalfDiagonal = 0.8660255f;
+
+/// Below this radius a cell is cut into smaller ones for the plane cut, until its radius is at least this in
+/// them.
+inline constexpr float kLeastRadius = 2.f;
+
+/// What is the same for all cells of a sphere.
+struct Sphere {
+  float radius, reach;
+  float linear_offset;  ///< f(r) of the linear rule
+  int parts;            ///< cells are cut into parts^3
+
+  Sphere(double r, int subcells)
+      : radius(static_cast<float>(r)), reach(radius + kHalfDiagonal), parts(subcells) {
+    // Jones & Williams (docs key: joneswilliams2017): the fraction of a cell with a face towards the centre
+    // at distance d is f(r) - (d - r), with f = V_a - r + 1/2 and V_a the volume under the sphere over a unit
+    // square.
+    const double square = r * r, s = __builtin_sqrt(square > 0.5 ? square - 0.5 : 0.);
+    const double volume = (1. / 12 - square) * __builtin_atan(0.5 * s / (0.5 - square)) + s / 3 +
+                          (square - 1. / 12) * __builtin_atan(0.5 / s) -
+                          4. / 3 * r * square * __builtin_atan(0.25 / (r * s));
+    linear_offset = static_cast<float>(square > 0.5 ? volume - r + 0.5 : 0.5);
+  }
+};
+
+/// Part of a cube of edge 1 with its centre at (x, y, z) from the centre of a sphere, by the plane through
+/// the sphere's surface nearest to the cube's centre, moved inwards by the mean depth of the surface below it
+/// (t^2/2r, with the mean square distance t^2 in the cut taken from its orientation). The volume under a
+/// plane is Scardovelli and Zaleski's (docs key: scardovelli2000).
+[[gnu::always_inline]] inline Floats plane_cut(const Floats& x, const Floats& y, const Floats& z,
+                                               float radius) {
+  const Floats distance = square_root(x * x + y * y + z * z);
+  const Floats inverse = 1.f / greater(distance, Floats{} + 1e-6f);
+  // Normals parallel to a face divide by zero below; turned by this little they change the fraction by its
+  // square.
+  constexpr float least = 0.02f;
+  const Floats nx = greater(magnitude(x) * inverse, Floats{} + least),
+               ny = greater(magnitude(y) * inverse, Floats{} + least),
+               nz = greater(magnitude(z) * inverse, Floats{} + least);
+  const Floats sum = nx + ny + nz, product = nx * ny * nz;
+  // Mean of t^2 over the cut through the middle: 1/6 for a face, 5/24 for the hexagon across a diagonal.
+  const Floats curvature = (1.f / 12 + (27.f / 48) * product * product) / radius;
+  const Floats offset =
+      0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
+  const Floats whole = offset > 0.5f * sum ? Floats{} + 1.f : Floats{};
+  const Floats low = lesser(offset, sum - offset);
+  const Floats largest = greater(nx, greater(ny, nz));
+  const Floats volume = (positive_cubed(low) - positive_cubed(low - nx) - positive_cubed(low - ny) -
+                         positive_cubed(low - nz) + positive_cubed(low - (sum - largest))) /
+                        (6.f * product);
+  return whole > 0.f ? 1.f - volume : volume;
+}
+
+template <FractionMethod kMethod>
+[[gnu::always_inline]] inline Floats covered(const Sphere& sphere, const Floats& dx, float dy, float dz) {
+  const Floats squared = dx * dx + (dy * dy + dz * dz);
+  if constexpr (kMethod == FractionMethod::linear) {
+    const Floats fraction = (sphere.linear_offset + sphere.radius) - square_root(squared);
+    return lesser(greater(fraction, Floats{}), Floats{} + 1.f);
+  }
+  const float inside = sphere.radius - kHalfDiagonal;
+  const Floats in = inside > 0 ? (squared < inside * inside ? Floats{} + 1.f : Floats{}) : Floats{};
+  const Floats out = squared > sphere.reach * sphere.reach ? Floats{} + 1.f : Floats{};
+  if (all_true(in + out)) return in;
+  Floats fraction{};
+  if constexpr (kMethod == FractionMethod::exact) {
+    if (sphere.radius >= kLeastRadius) {
+      fraction = plane_cut(dx, Floats{} + dy, Floats{} + dz, sphere.radius);
+    } else {
+      const int n = static_cast<int>(kLeastRadius / sphere.radius) + 1;
+      const float scale = static_cast<float>(n);
+      for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < n; ++i) {
+            const auto at = [&](int part) { return static_cast<float>(part) + 0.5f - 0.5f * scale; };
+            const Floats x = scale * dx + at(i), y = Floats{} + (scale * dy + at(j)),
+                         z = Floats{} + (scale * dz + at(k));
+            const float r = scale * sphere.radius;
+            const Floats d2 = x * x + y * y + z * z;
+            const float near = r - kHalfDiagonal, far = r + kHalfDiagonal;
+            const Floats cut = lesser(greater(plane_cut(x, y, z, r), Floats{}), Floats{} + 1.f);
+            fraction += d2 < near * near ? Floats{} + 1.f : (d2 > far * far ? Floats{} : cut);
+          }
+      fraction /= scale * scale * scale;
+    }
+    fraction = lesser(greater(fraction, Floats{}), Floats{} + 1.f);
+  } else {
+    const float part = 1.f / static_cast<float>(sphere.parts), square = sphere.radius * sphere.radius;
+    for (int k = 0; k < sphere.parts; ++k)
+      for (int j = 0; j < sphere.parts; ++j)
+        for (int i = 0; i < sphere.parts; ++i) {
+          const auto at = [&](int n) { return (static_cast<float>(n) + 0.5f) * part - 0.5f; };
+          const Floats x = dx + at(i);
+          const float y = dy + at(j), z = dz + at(k);
+          fraction += x * x + (y * y + z * z) < square ? Floats{} + part * part * part : Floats{};
+        }
+  }
+  return in > 0.f ? in : (out > 0.f ? Floats{} : fraction);
+}
+
+}  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "suffuse/common/linear_algebra.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/coupling/particle_port.h"
+
+namespace suffuse::coupling {
+
+/// Spheres without a discrete-element code: held, moved at given velocities, or free to follow the fluid's
+/// load, gravity and nothing else. Every rank holds all of them; the lowest rank owns them. Images across
+/// periodic faces are made.
+class PrescribedGrains final : public ParticlePort {
+ public:
+  struct Grain {
+    Vec3 position, velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
+    double radius = 0, density = 2650;
+  };
+
+  PrescribedGrains(std::vector<Grain> grains, const Vec3& box, const std::array<bool, 3>& periodic,
+                   double step)
+      : box_(box), periodic_(periodic), step_(step), list(std::move(grains)) {
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    memory_force_.assign(3 * list.size(), 0);
+    memory_torque_.assign(3 * list.size(), 0);
+    history_.assign(kHistoryLength * list.size(), 0);
+  }
+
+  GrainArrays grains() override {
+    position_.clear();
+    velocity_.clear();
+    spin_.clear();
+    radius_.clear();
+    mass_.clear();
+    id_.clear();
+    owner_.clear();
+    for (std::size_t n = 0; n < list.size(); ++n) add(n, list[n].position);
+    for (std::size_t n = 0; n < list.size(); ++n)
+      for (int i = -1; i <= 1; ++i)
+        for (int j = -1; j <= 1; ++j)
+          for (int k = -1; k <= 1; ++k) {
+            if ((i == 0 && j == 0 && k == 0) || (i != 0 && !periodic_[0]) || (j != 0 && !periodic_[1]) ||
+                (k != 0 && !periodic_[2]))
+              continue;
+            const Vec3 image = list[n].position + Vec3(i * box_[0], j * box_[1], k * box_[2]);
+            bool near = true;
+            for (int a = 0; a < 3; ++a)
+              near &= image[a] > -2 * list[n].radius && image[a] < box_[a] + 2 * list[n].radius;
+            if (near) add(n, image);
+          }
+    GrainArrays arrays;
+    arrays.owned = static_cast<int>(list.size());
+    arrays.total = static_cast<int>(radius_.size());
+    arrays.position = position_.data();
+    arrays.velocity = velocity_.data();
+    arrays.angular_velocity = spin_.data();
+    arrays.radius = radius_.data();
+    arrays.mass = mass_.data();
+    arrays.id = id_.data();
+    return arrays;
+  }
+
+  /// Every rank owns all grains here, so sums go to all.
+  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override {
+    for (std::vector<double>* values : {&force, &torque}) {
+      std::vector<double> mine(3 * list.size(), 0);
+      for (std::size_t n = 0; n < owner_.size(); ++n)
+        for (std::size_t a = 0; a < 3; ++a) mine[3 * owner_[n] + a] += (*values)[3 * n + a];
+      MPI_Allreduce(mine.data(), values->data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
+                    MPI_COMM_WORLD);
+    }
+  }
+
+  GrainMemory memory() override { return {memory_force_.data(), memory_torque_.data(), history_.data()}; }
+  bool any_mobile() const override { return mobile; }
+  double time_step() const override { return step_; }
+
+  void advance(int substeps) override {
+    for (std::size_t n = 0; n < list.size(); ++n) {
+      Grain& g = list[n];
+      const double mass = g.density * sphere_volume(g.radius), inertia = 0.4 * mass * g.radius * g.radius;
+      const double time = substeps * step_;
+      if (free) {
+        const Vec3 acceleration = force_on(n) / mass + gravity;
+        g.position += time * (g.velocity + 0.5 * time * acceleration);
+        g.velocity += time * acceleration;
+        g.angular_velocity += time / inertia * torque_on(n);
+      } else {
+        g.position += time * g.velocity;
+      }
+      for (int a = 0; a < 3; ++a)
+        if (periodic_[static_cast<std::size_t>(a)])
+          g.position[a] -= box_[a] * std::floor(g.position[a] / box_[a]);
+    }
+  }
+
+  Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(memory_force_.data() + 3 * n); }
+  Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(memory_torque_.data() + 3 * n); }
+
+ private:
+  void add(std::size_t n, const Vec3& position) {
+    const Grain& g = list[n];
+    for (int a = 0; a < 3; ++a) {
+      position_.push_back(position[a]);
+      velocity_.push_back(g.velocity[a]);
+      spin_.push_back(g.angular_velocity[a]);
+    }
+    radius_.push_back(g.radius);
+    mass_.push_back(g.density * sphere_volume(g.radius));
+    id_.push_back(static_cast<int>(n) + 1);
+    owner_.push_back(n);
+  }
+
+  Vec3 box_;
+  std::array<bool, 3> periodic_;
+  double step_;
+  int rank_ = 0;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, memory_force_, memory_torque_, history_;
+  std::vector<int> id_;
+  std::vector<std::size_t> owner_;
+
+ public:
+  std::vector<Grain> list;
+  bool mobile = false;  ///< moved at their velocities
+  bool free = false;    ///< with `mobile`: driven by the fluid and gravity
+  Vec3 gravity = Vec3::Zero();
+};
+
+}  // namespace suffuse::coupling
