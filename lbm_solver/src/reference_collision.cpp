@@ -128,4 +128,62 @@ CellPopulations reference_collision(const CellPopulations& populations, const Co
   return f;
 }
 
+namespace {
+
+/// Omega_solid of SC1 to SC3, as printed.
+double solid_operator(SolidOperator which, const CellPopulations& f, int i, double density, const Vec3& u,
+                      const Vec3& us, double even_rate, double odd_rate) {
+  const int o = opposite(i);
+  const double fi = f[static_cast<std::size_t>(i)], fo = f[static_cast<std::size_t>(o)];
+  switch (which) {
+    case SolidOperator::sc1:
+      return fo - fi + equilibrium(i, density, us) - equilibrium(o, density, u);
+    case SolidOperator::sc3:
+      return fo - fi + equilibrium(i, density, us) - equilibrium(o, density, us);
+    default:
+      break;
+  }
+  const double even = (fi + fo) / 2 - (equilibrium(i, density, u) + equilibrium(o, density, u)) / 2;
+  const double odd = (fi - fo) / 2 - (equilibrium(i, density, u) - equilibrium(o, density, u)) / 2;
+  return equilibrium(i, density, us) - fi + (1 - even_rate) * even + (1 - odd_rate) * odd;
+}
+
+}  // namespace
+
+PartialCollision reference_partial_collision(const CellPopulations& populations,
+                                             const CollisionSettings& settings, const Vec3& force,
+                                             const PartialSolidSettings& partial,
+                                             const PartialSolidCell& solids) {
+  if (!(solids.fraction > 0)) return {reference_collision(populations, settings, force), Vec3::Zero()};
+  const double weight = solid_weight(partial, solids, settings.relaxation_time);
+  const Vec3 us = solids.momentum / solids.strength;
+  double density = 0;
+  Vec3 j = Vec3::Zero();
+  for (int i = 0; i < kDirections; ++i) {
+    density += populations[static_cast<std::size_t>(i)];
+    j += populations[static_cast<std::size_t>(i)] * velocity_of(i);
+  }
+  const double inertial = settings.incompressible ? 1 : density;
+  if (partial.solid_operator == SolidOperator::force) {
+    const Vec3 exchange = 2 * weight * (j + 0.5 * force - inertial * us);
+    return {reference_collision(populations, settings, force - exchange), exchange};
+  }
+  const CellPopulations fluid = reference_collision(populations, settings, force);
+  CellPopulations f = populations;
+  for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] -= kWeight[i] * (density - inertial);
+  const double even_rate = 1 / settings.relaxation_time;
+  const double odd_rate = settings.collision_operator == CollisionOperator::bgk
+                              ? even_rate
+                              : 1 / (0.5 + settings.magic / (settings.relaxation_time - 0.5));
+  const Vec3 u = (j + 0.5 * force) / inertial;
+  PartialCollision result{populations, weight * force};
+  for (int i = 0; i < kDirections; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const double omega = solid_operator(partial.solid_operator, f, i, inertial, u, us, even_rate, odd_rate);
+    result.populations[n] += (1 - weight) * (fluid[n] - populations[n]) + weight * omega;
+    result.exchange -= weight * omega * velocity_of(i);
+  }
+  return result;
+}
+
 }  // namespace suffuse::lbm

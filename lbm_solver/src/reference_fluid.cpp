@@ -22,6 +22,8 @@ ReferenceFluid::ReferenceFluid(const FluidSettings& settings, const Index3& cell
   before_.assign(total, rest);
   after_ = before_;
   labels_.assign(total, 0);
+  solids_.assign(total, {});
+  exchange_.assign(total, Vec3::Zero());
   solid_forces_.fill(Vec3::Zero());
 }
 
@@ -52,7 +54,11 @@ FluidPoint ReferenceFluid::at(const Index3& cell) const {
     density += f;
     momentum += f * velocity_of(i);
   }
-  return {density, settings_.collision.incompressible ? momentum : Vec3(momentum / density)};
+  const Vec3 velocity = settings_.collision.incompressible ? momentum : Vec3(momentum / density);
+  const PartialSolidCell& solids = solids_[index(cell)];
+  if (!partial_ || !(solids.fraction > 0)) return {density, velocity};
+  const double weight = solid_weight(*partial_, solids, settings_.collision.relaxation_time);
+  return {density, (1 - weight) * velocity + weight * solids.momentum / solids.strength};
 }
 
 Vec3 ReferenceFluid::solid_force(std::uint8_t label) const {
@@ -123,8 +129,17 @@ double ReferenceFluid::entering(const Index3& cell, int direction) {
 
 void ReferenceFluid::step() {
   solid_forces_.fill(Vec3::Zero());
-  for (std::size_t n = 0; n < before_.size(); ++n)
-    if (labels_[n] == 0) after_[n] = reference_collision(before_[n], settings_.collision, force_);
+  for (std::size_t n = 0; n < before_.size(); ++n) {
+    if (labels_[n] != 0) continue;
+    if (!partial_) {
+      after_[n] = reference_collision(before_[n], settings_.collision, force_);
+      continue;
+    }
+    const PartialCollision collision =
+        reference_partial_collision(before_[n], settings_.collision, force_, *partial_, solids_[n]);
+    after_[n] = collision.populations;
+    exchange_[n] = collision.exchange;
+  }
   for_each_cell({{0, 0, 0}, cells_}, [&](int x, int y, int z) {
     if (labels_[index({x, y, z})] != 0) return;
     for (int i = 0; i < kDirections; ++i)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "suffuse/lbm/fluid.h"
@@ -15,6 +16,12 @@ class ReferenceFluid {
   ReferenceFluid(const FluidSettings& settings, const Index3& cells);
 
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of);
+  void use_partial_solids(const PartialSolidSettings& settings) { partial_ = settings; }
+  void set_partial_solid(const Index3& cell, const PartialSolidCell& solids) {
+    solids_[index(cell)] = solids;
+  }
+  /// Momentum that the fluid handed to the solids of a cell in the last step.
+  Vec3 exchange(const Index3& cell) const { return exchange_[index(cell)]; }
   void set_force(const Vec3& force) { force_ = force; }
   void set_faces(const FaceConditions& faces) { settings_.faces = faces; }
 
@@ -38,6 +45,9 @@ class ReferenceFluid {
   Vec3 force_ = Vec3::Zero();
   std::vector<CellPopulations> before_, after_;
   std::vector<std::uint8_t> labels_;
+  std::optional<PartialSolidSettings> partial_;
+  std::vector<PartialSolidCell> solids_;
+  std::vector<Vec3> exchange_;
   std::array<Vec3, 256> solid_forces_;
 };
 
@@ -45,5 +55,16 @@ class ReferenceFluid {
 /// operators.
 std::array<double, 19> reference_collision(const std::array<double, 19>& populations,
                                            const CollisionSettings& settings, const Vec3& force);
+
+struct PartialCollision {
+  std::array<double, 19> populations;
+  Vec3 exchange = Vec3::Zero();  ///< momentum handed to the solids
+};
+
+/// The same where solids cover a part of the cell.
+PartialCollision reference_partial_collision(const std::array<double, 19>& populations,
+                                             const CollisionSettings& settings, const Vec3& force,
+                                             const PartialSolidSettings& partial,
+                                             const PartialSolidCell& solids);
 
 }  // namespace suffuse::lbm

@@ -1,0 +1,130 @@
+// Partly covered cells: fast kernels against the plain reference, and the weightings' limits.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "lbm_test_tools.h"
+#include "suffuse/lbm/reference_fluid.h"
+
+using namespace suffuse;
+using namespace suffuse::lbm;
+using namespace suffuse::lbm::test;
+
+namespace {
+
+// Rows of 21 cells: a pack without any solid, full packs and a remainder for every register width.
+constexpr Index3 kCells{21, 4, 5};
+
+/// Some cells clear, some whole, some over-full, moving in all directions. Rounded to what a float holds.
+PartialSolidCell random_solids(const Index3& cell, double coefficient) {
+  PartialSolidCell solids;
+  if (cell[1] == 0 || noise(cell, 0, 5) < -0.3) return solids;
+  solids.fraction = std::round(1e4 * std::abs(1.2 * noise(cell, 1, 5))) / 8192;
+  solids.strength = static_cast<float>(coefficient * solids.fraction);
+  for (int a = 0; a < 3; ++a)
+    solids.momentum[a] = static_cast<float>(0.02 * solids.strength * noise(cell, 2 + a, 5));
+  return solids;
+}
+
+double largest_difference(const FluidSettings& settings, const PartialSolidSettings& partial,
+                          const Vec3& force) {
+  const Decomposition whole = Decomposition::balanced(MPI_COMM_SELF, kCells);
+  Fluid fast(settings, whole);
+  ReferenceFluid plain(settings, kCells);
+  const PartialSolidArrays arrays = fast.use_partial_solids(partial);
+  plain.use_partial_solids(partial);
+  fast.set_force(force);
+  plain.set_force(force);
+  const auto place = [&](int x, int y, int z) { return x + arrays.row_pitch * y + arrays.plane_pitch * z; };
+  for_each_cell(whole.local_box(), [&](int x, int y, int z) {
+    const PartialSolidCell solids = random_solids({x, y, z}, partial.own_coefficients ? 2.5 : 1);
+    arrays.fraction[place(x, y, z)] = static_cast<float>(solids.fraction);
+    arrays.strength[place(x, y, z)] = static_cast<float>(solids.strength);
+    for (std::size_t a = 0; a < 3; ++a)
+      arrays.momentum[a][place(x, y, z)] = static_cast<float>(solids.momentum[static_cast<int>(a)]);
+    plain.set_partial_solid({x, y, z}, solids);
+    for (int i = 0; i < kDirections; ++i) {
+      fast.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
+      plain.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
+    }
+  });
+  double worst = 0;
+  const auto note = [&](double difference) {
+    worst = std::isfinite(difference) ? std::max(worst, std::abs(difference)) : 1e300;
+  };
+  for (int step = 0; step < 6; ++step) {
+    fast.step();
+    plain.step();
+    for_each_cell(whole.local_box(), [&](int x, int y, int z) {
+      const Index3 cell{x, y, z};
+      for (int i = 0; i < kDirections; ++i) note(fast.population(i, cell) - plain.population(i, cell));
+      note((fast.at(cell).velocity - plain.at(cell).velocity).norm());
+      if (arrays.fraction[place(x, y, z)] > 0)
+        for (std::size_t a = 0; a < 3; ++a)
+          std::visit(
+              [&](const auto& h) { note(h[a][place(x, y, z)] - plain.exchange(cell)[static_cast<int>(a)]); },
+              arrays.exchange);
+    });
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("partly covered cells: fast kernels equal the reference for every operator and weighting") {
+  int compared = 0;
+  for (const InstructionSet set : available_instruction_sets())
+    for (const Precision precision : {Precision::double_precision, Precision::float_precision})
+      for (const CollisionOperator op :
+           {CollisionOperator::bgk, CollisionOperator::trt, CollisionOperator::central_moments})
+        for (const SolidOperator solid :
+             {SolidOperator::sc1, SolidOperator::sc2, SolidOperator::sc3, SolidOperator::force})
+          for (const SolidWeighting weighting : {SolidWeighting::fraction, SolidWeighting::noble_torczynski,
+                                                 SolidWeighting::viscosity_independent})
+            for (int options = 0; options < 8; ++options) {
+              const bool own = (options & 4) != 0;
+              if (own && weighting != SolidWeighting::viscosity_independent) continue;
+              FluidSettings settings;
+              settings.instruction_set = set;
+              settings.precision = precision;
+              settings.faces = by_axis(FaceKind::periodic, FaceKind::no_slip, FaceKind::free_slip);
+              settings.collision.collision_operator = op;
+              settings.collision.relaxation_time = 0.7;
+              settings.collision.incompressible = (options & 1) != 0;
+              const Vec3 force = (options & 2) != 0 ? Vec3(1e-3, -2e-3, 5e-4) : Vec3::Zero();
+              INFO(name_of(op) << " " << name_of(solid) << " " << name_of(weighting) << " " << name_of(set)
+                               << " options " << options
+                               << (precision == Precision::float_precision ? " float" : " double"));
+              // As for fluid alone (lbm_kernels_test.cpp), and velocities 20 times a population.
+              const double tolerance = precision == Precision::double_precision ? 4e-15 : 1e-6;
+              CHECK(largest_difference(settings, {solid, weighting, 1.7, own}, force) < tolerance);
+              ++compared;
+            }
+  CHECK(compared >= 300);
+}
+
+TEST_CASE(
+    "weightings of partly covered cells are 0 in clear cells and 1 in whole ones, and shrink what overlaps") {
+  for (const SolidWeighting weighting :
+       {SolidWeighting::fraction, SolidWeighting::noble_torczynski, SolidWeighting::viscosity_independent})
+    for (const double tau : {0.505, 0.8, 2.}) {
+      const PartialSolidSettings settings{SolidOperator::force, weighting, 2., false};
+      CHECK(solid_weight(settings, {0, 0, Vec3::Zero()}, tau) == 0);
+      CHECK(solid_weight(settings, {1, 1, Vec3::Zero()}, tau) == Approx(1).epsilon(1e-14));
+      CHECK(solid_weight(settings, {1.4, 1.4, Vec3::Zero()}, tau) == Approx(1).epsilon(1e-14));
+      double last = 0;
+      for (int tenths = 1; tenths < 10; ++tenths) {
+        const double fraction = tenths / 10.;
+        const double weight = solid_weight(settings, {fraction, fraction, Vec3::Zero()}, tau);
+        CHECK(weight > last);
+        CHECK(weight < 1);
+        last = weight;
+      }
+    }
+}
+
+TEST_CASE("coefficients of partly covered cells that cannot work are refused") {
+  CHECK_THROWS_WITH(check({SolidOperator::force, SolidWeighting::viscosity_independent, 0, false}),
+                    Catch::Contains("coefficient"));
+  CHECK_THROWS_WITH(check({SolidOperator::sc1, SolidWeighting::noble_torczynski, 1, true}),
+                    Catch::Contains("viscosity_independent"));
+}
