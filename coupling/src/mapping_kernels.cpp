@@ -67,10 +67,8 @@ void map_with(const MappedSphere& m, const FractionRule& rule, const char* plane
 
 /// The share of each cell's exchange that belongs to the sphere: 1 where it is alone.
 Doubles shares(const Floats& own, const Floats& all) {
-  bool shared = false;
-#pragma GCC unroll 8
-  for (int lane = 0; lane < kLanes; ++lane) shared |= own[lane] != all[lane] && own[lane] != 0;
-  if (!shared) return __builtin_convertvector(own != 0.f ? Floats{} + 1.f : Floats{}, Doubles);
+  const Floats alone = own != 0.f ? Floats{} + 1.f : Floats{};
+  if (!any(alone * (all - own))) return __builtin_convertvector(alone, Doubles);
   const Doubles whole = __builtin_convertvector(all, Doubles), mine = __builtin_convertvector(own, Doubles);
   return mine / (whole > 0. ? whole : Doubles{} + 1.);
 }
@@ -106,10 +104,7 @@ void sum_with(const MappedSphere& m, const CellArrays& arrays, const T* const* e
       std::ptrdiff_t cell = m.x_start + arrays.row_pitch * y + arrays.plane_pitch * z;
       for (int pack = 0; pack < m.packs; ++pack, cell += kLanes, entries += kLanes) {
         const Floats own = load(entries);
-        bool any = false;
-#pragma GCC unroll 8
-        for (int lane = 0; lane < kLanes; ++lane) any |= own[lane] != 0;
-        if (!any) continue;
+        if (!any(own)) continue;
         const Doubles share = shares(own, load(arrays.strength + cell));
         const Doubles hx = share * ExchangePack<T>::load(exchange[0] + cell),
                       hy = share * ExchangePack<T>::load(exchange[1] + cell),

@@ -44,11 +44,15 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
   const Floats p = v > 0.f ? v : Floats{};
   return p * p * p;
 }
-[[gnu::always_inline]] inline bool all_true(const Floats& mask_value) {
-  bool all = true;
-#pragma GCC unroll 8
-  for (int lane = 0; lane < kLanes; ++lane) all &= mask_value[lane] != 0;
-  return all;
+/// Is any lane not zero?
+[[gnu::always_inline]] inline bool any(const Floats& v) {
+#ifdef __AVX__
+  return _mm256_movemask_ps(_mm256_cmp_ps(v, Floats{}, _CMP_NEQ_UQ)) != 0;
+#else
+  bool found = false;
+  for (int lane = 0; lane < kLanes; ++lane) found |= v[lane] != 0;
+  return found;
+#endif
 }
 
 /// Half of a cell's diagonal: beyond radius + this nothing is covered, within radius - this all is.
@@ -115,7 +119,7 @@ template <FractionMethod kMethod>
   const float inside = sphere.radius - kHalfDiagonal;
   const Floats in = inside > 0 ? (squared < inside * inside ? Floats{} + 1.f : Floats{}) : Floats{};
   const Floats out = squared > sphere.reach * sphere.reach ? Floats{} + 1.f : Floats{};
-  if (all_true(in + out)) return in;
+  if (!any(1.f - (in + out))) return in;
   Floats fraction{};
   if constexpr (kMethod == FractionMethod::exact) {
     if (sphere.radius >= kLeastRadius) {

@@ -34,6 +34,22 @@ template <class T>
 FluidCore<T>::FluidCore(const FluidSettings& s, const Decomposition& d)
     : FluidCoreBase(s, d), populations_(d.local_box().extents()), halo_(d, s.faces), patches_(d, s.faces) {}
 
+/// See solid_weight, whose formulas these are.
+template <class T>
+WeightingTerms<T> weighting_terms(const PartialSolidSettings& settings, double relaxation_time) {
+  const T t = static_cast<T>(relaxation_time - 0.5);
+  switch (settings.weighting) {
+    case SolidWeighting::fraction:
+      return {1, 0, 0, 1, 1};
+    case SolidWeighting::noble_torczynski:
+      return {t, 1, 0, t, 1};
+    case SolidWeighting::viscosity_independent:
+      break;
+  }
+  const T strength = t * static_cast<T>(settings.own_coefficients ? 1 : settings.coefficient);
+  return {strength, 1, strength, 0, 0};
+}
+
 template <class T>
 KernelCall<T> FluidCore<T>::kernel_call() {
   const CollisionSettings& c = settings.collision;
@@ -61,8 +77,7 @@ KernelCall<T> FluidCore<T>::kernel_call() {
   if (store_) {
     store_->give_to(call);
     call.solid_operator = partial_solids->solid_operator;
-    call.weighting = partial_solids->weighting;
-    call.coefficient = static_cast<T>(partial_solids->own_coefficients ? 1 : partial_solids->coefficient);
+    call.weighting = weighting_terms<T>(*partial_solids, c.relaxation_time);
   }
   return call;
 }

@@ -14,16 +14,10 @@ class PartialSolidStore {
   PartialSolidStore(const Populations<T>& like, bool own_coefficients)
       : row_pitch_(like.row_pitch()),
         plane_pitch_(like.plane_pitch()),
-        fraction_(like.cells(), row_pitch_, plane_pitch_),
-        strength_(own_coefficients
-                      ? std::make_unique<CellValues<float>>(like.cells(), row_pitch_, plane_pitch_)
-                      : nullptr),
-        momentum_{{like.cells(), row_pitch_, plane_pitch_},
-                  {like.cells(), row_pitch_, plane_pitch_},
-                  {like.cells(), row_pitch_, plane_pitch_}},
-        exchange_{{like.cells(), row_pitch_, plane_pitch_},
-                  {like.cells(), row_pitch_, plane_pitch_},
-                  {like.cells(), row_pitch_, plane_pitch_}} {}
+        fraction_(values<float>(like, 0)),
+        strength_(own_coefficients ? std::make_unique<CellValues<float>>(values<float>(like, 1)) : nullptr),
+        momentum_{values<float>(like, 2), values<float>(like, 3), values<float>(like, 4)},
+        exchange_{values<T>(like, 5), values<T>(like, 6), values<T>(like, 7)} {}
 
   PartialSolidArrays arrays() {
     PartialSolidArrays a;
@@ -61,6 +55,11 @@ class PartialSolidStore {
   }
 
  private:
+  template <class V>
+  static CellValues<V> values(const Populations<T>& like, std::size_t number) {
+    return CellValues<V>(like.cells(), like.row_pitch(), like.plane_pitch(), number);
+  }
+
   std::ptrdiff_t row_pitch_, plane_pitch_;
   CellValues<float> fraction_;
   std::unique_ptr<CellValues<float>> strength_;

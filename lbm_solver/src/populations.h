@@ -89,20 +89,31 @@ class CellLabels {
 };
 
 /// One value a cell with the layout of Populations, without ghost planes: for what a collision reads or
-/// writes in its own cells only.
+/// writes in its own cells only. `number` tells several such arrays apart: they start at different offsets
+/// within a page, and rows on half a cache line at least.
 template <class V>
 class CellValues {
  public:
-  CellValues(const Index3& cells, std::ptrdiff_t row_pitch, std::ptrdiff_t plane_pitch)
-      : values_(static_cast<std::size_t>(plane_pitch * (cells[2] - 1) + row_pitch * cells[1]) + 2 * kGuard,
-                V(0)) {}
-  V* data() { return values_.data() + kGuard; }
-  const V* data() const { return values_.data() + kGuard; }
-  std::size_t bytes() const { return values_.size() * sizeof(V); }
+  CellValues(const Index3& cells, std::ptrdiff_t row_pitch, std::ptrdiff_t plane_pitch, std::size_t number)
+      : first_(kGuard + number * 5 * kLine),
+        count_(static_cast<std::size_t>(plane_pitch * (cells[2] - 1) + row_pitch * cells[1]) + first_ +
+               kGuard) {
+    void* block = std::aligned_alloc(4096, (count_ * sizeof(V) + 4095) / 4096 * 4096);
+    if (block == nullptr) throw std::bad_alloc();
+    std::memset(block, 0, count_ * sizeof(V));
+    values_.reset(static_cast<V*>(block));
+  }
+  V* data() { return values_.get() + first_; }
+  const V* data() const { return values_.get() + first_; }
+  std::size_t bytes() const { return count_ * sizeof(V); }
 
  private:
-  static constexpr std::size_t kGuard = 64;
-  std::vector<V> values_;
+  struct Free {
+    void operator()(V* block) const { std::free(block); }
+  };
+  static constexpr std::size_t kLine = 64 / sizeof(V), kGuard = 64;
+  std::size_t first_, count_;
+  std::unique_ptr<V, Free> values_;
 };
 
 }  // namespace suffuse::lbm

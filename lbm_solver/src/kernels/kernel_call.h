@@ -8,6 +8,15 @@
 
 namespace suffuse::lbm {
 
+/// SolidWeighting as one formula, with S the strength and eps the fraction of a cell:
+///   B = S numerator / ((open (1 - eps) + strength S + constant) (1 or, if they shrink, the larger of 1 and
+///   eps)).
+template <class T>
+struct WeightingTerms {
+  T numerator, open, strength, constant;
+  T shrink;  ///< 1: what overlaps shrinks here; 0: the formula does it by itself
+};
+
 /// What one sweep of a collide-and-stream kernel reads and writes: plain data, in lattice units.
 ///
 /// place[i] points at what inner cell (0,0,0) reads for direction i; cell (x,y,z) reads its own at
@@ -40,8 +49,7 @@ struct KernelCall {
   const float* solid_momentum[3];
   T* exchange[3];
   SolidOperator solid_operator;
-  SolidWeighting weighting;
-  T coefficient;  ///< that the strengths are still to be multiplied with
+  WeightingTerms<T> weighting;
 };
 
 /// What kind of solids a kernel is compiled for.

@@ -45,9 +45,19 @@ template <class T>
 /// As many floats as a pack of T has lanes, as T.
 template <class T>
 [[gnu::always_inline]] inline Pack<T> load_floats(const float* from) {
-  typedef float Floats __attribute__((vector_size(kPackWidth<T> * 4)));
-  typedef float Unaligned __attribute__((vector_size(kPackWidth<T> * 4), aligned(4), may_alias));
-  return __builtin_convertvector(static_cast<Floats>(*reinterpret_cast<const Unaligned*>(from)), Pack<T>);
+  if constexpr (sizeof(T) == sizeof(float)) {
+    return load<T>(reinterpret_cast<const T*>(from));
+  } else {
+#if defined(__AVX512F__)
+    return _mm512_maskz_cvtps_pd(static_cast<__mmask8>(-1), _mm256_loadu_ps(from));
+#elif defined(__AVX2__)
+    return _mm256_cvtps_pd(_mm_loadu_ps(from));
+#else
+    Pack<T> values{};
+    for (int lane = 0; lane < kPackWidth<T>; ++lane) values[lane] = static_cast<T>(from[lane]);
+    return values;
+#endif
+  }
 }
 
 template <class T>
@@ -62,6 +72,12 @@ template <class T>
 
 #if defined(__AVX512F__)
 // The masked form with all lanes on: the plain one makes GCC 12 warn about its own header.
+[[gnu::always_inline]] inline bool any_positive(const Pack<double>& v) {
+  return _mm512_cmp_pd_mask(v, Pack<double>{}, _CMP_GT_OQ) != 0;
+}
+[[gnu::always_inline]] inline bool any_positive(const Pack<float>& v) {
+  return _mm512_cmp_ps_mask(v, Pack<float>{}, _CMP_GT_OQ) != 0;
+}
 [[gnu::always_inline]] inline Pack<double> square_root(const Pack<double>& v) {
   return _mm512_maskz_sqrt_pd(static_cast<__mmask8>(-1), v);
 }
@@ -69,6 +85,12 @@ template <class T>
   return _mm512_maskz_sqrt_ps(static_cast<__mmask16>(-1), v);
 }
 #elif defined(__AVX2__)
+[[gnu::always_inline]] inline bool any_positive(const Pack<double>& v) {
+  return _mm256_movemask_pd(_mm256_cmp_pd(v, Pack<double>{}, _CMP_GT_OQ)) != 0;
+}
+[[gnu::always_inline]] inline bool any_positive(const Pack<float>& v) {
+  return _mm256_movemask_ps(_mm256_cmp_ps(v, Pack<float>{}, _CMP_GT_OQ)) != 0;
+}
 [[gnu::always_inline]] inline Pack<double> square_root(const Pack<double>& v) {
   return _mm256_sqrt_pd(v);
 }
@@ -76,6 +98,12 @@ template <class T>
   return _mm256_sqrt_ps(v);
 }
 #else
+template <class V>
+[[gnu::always_inline]] inline bool any_positive(const V& v) {
+  bool any = false;
+  for (unsigned lane = 0; lane < sizeof(V) / sizeof(v[0]); ++lane) any |= v[lane] > 0;
+  return any;
+}
 [[gnu::always_inline]] inline Pack<double> square_root(Pack<double> v) {
   for (int lane = 0; lane < kPackWidth<double>; ++lane) v[lane] = __builtin_sqrt(v[lane]);
   return v;

@@ -34,12 +34,21 @@ struct SolidMask {
   }
 };
 
+/// As the populations' streams (see kPrefetchBytes in stream_collide.h): seven more.
 template <class T>
-[[gnu::always_inline]] inline bool any_positive(const Pack<T>& v) {
-  bool any = false;
-#pragma GCC unroll 16
-  for (int lane = 0; lane < kPackWidth<T>; ++lane) any |= v[lane] > T(0);
-  return any;
+[[gnu::always_inline]] inline void fetch_ahead(const KernelCall<T>& call, std::ptrdiff_t cells) {
+  constexpr int bytes = 512;
+  const auto fetch = [](const void* from, int write) {
+    if (write == 1)
+      __builtin_prefetch(static_cast<const char*>(from) + bytes, 1);
+    else
+      __builtin_prefetch(static_cast<const char*>(from) + bytes, 0);
+  };
+  fetch(call.fraction + cells, 0);
+  for (int a = 0; a < 3; ++a) {
+    fetch(call.solid_momentum[a] + cells, 0);
+    fetch(call.exchange[a] + cells, 1);
+  }
 }
 
 template <class T>
@@ -59,20 +68,14 @@ template <class T>
 [[gnu::always_inline]] inline void weigh_solids(std::ptrdiff_t cells, const KernelCall<T>& call,
                                                 const Pack<T>& fraction, Pack<T>& weight,
                                                 Pack<T> (&weight_velocity)[3]) {
-  const T t = call.relaxation_time - T(0.5);
-  const Pack<T> open = fraction < T(1) ? T(1) - fraction : Pack<T>{};
-  Pack<T> factor;  // of strength and momentum
-  if (call.weighting == SolidWeighting::viscosity_independent) {
-    const Pack<T> strength = (call.coefficient * t) * load_floats<T>(call.strength + cells);
-    const Pack<T> whole = open + strength;
-    const Pack<T> inverse = T(1) / (whole > T(0) ? whole : broadcast<T>(1));
-    weight = strength * inverse;
-    factor = (call.coefficient * t) * inverse;
-  } else {
-    const Pack<T> shrink = T(1) / (fraction > T(1) ? fraction : broadcast<T>(1));
-    factor = call.weighting == SolidWeighting::fraction ? shrink : t * shrink / (open + t);
-    weight = fraction * factor;
-  }
+  const WeightingTerms<T>& terms = call.weighting;
+  const Pack<T> strength = load_floats<T>(call.strength + cells);
+  const Pack<T> clear = T(1) - fraction;
+  const Pack<T> open = clear > T(0) ? clear : Pack<T>{};
+  const Pack<T> whole = terms.open * open + terms.strength * strength + terms.constant;
+  const Pack<T> excess = clear < T(0) ? -clear : Pack<T>{};  // of fractions over one
+  const Pack<T> factor = terms.numerator / (whole + terms.shrink * (whole * excess));
+  weight = strength * factor;
   for (int a = 0; a < 3; ++a) weight_velocity[a] = factor * load_floats<T>(call.solid_momentum[a] + cells);
 }
 
@@ -85,8 +88,9 @@ struct PartialForce {
   [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
                                            const Pack<T>& density, const Pack<T> (&momentum)[3],
                                            Pack<T> (&force)[3]) {
+    fetch_ahead(call, cells);
     const Pack<T> fraction = load_floats<T>(call.fraction + cells);
-    if (!any_positive<T>(fraction)) return;
+    if (!any_positive(fraction)) return;
     Pack<T> weight, weight_velocity[3], exchange[3];
     weigh_solids<T>(cells, call, fraction, weight, weight_velocity);
     for (int a = 0; a < 3; ++a) {
@@ -164,7 +168,7 @@ struct PartialMixed {
                                          const CellPack<T>& cell, const Pack<T> (&before)[kDirections],
                                          Pack<T> (&after)[kDirections]) {
     const Pack<T> fraction = load_floats<T>(call.fraction + cells);
-    if (!any_positive<T>(fraction)) return;
+    if (!any_positive(fraction)) return;
     Mixing<T> mixing;
     weigh_solids<T>(cells, call, fraction, mixing.weight, mixing.solid_velocity);
     const Pack<T> inverse = T(1) / (mixing.weight > T(0) ? mixing.weight : broadcast<T>(1));

@@ -1,0 +1,162 @@
+// A dense bed of moving spheres in water: what each part of a coupled step costs, as a share of the bare
+// in-place update of the fluid's 19 arrays timed in turns within one run. Spheres are moved at given
+// velocities: the discrete-element code is not part of this (see dense_bed.py for the whole).
+//
+//   coupled_step_benchmark             one core
+//   mpirun -np 2 coupled_step_benchmark
+//
+// The scene: 7,958 equal spheres of 5 cells diameter, at random without overlap, in 84 x 84 x 168 cells with
+// no-slip walls (solid fraction 0.439).
+#include <benchmark/benchmark.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "prescribed_grains.h"
+#include "suffuse/coupling/coupled_simulation.h"
+
+namespace {
+
+using namespace suffuse;
+using namespace suffuse::coupling;
+
+constexpr lbm::Index3 kCells{84, 84, 168};
+constexpr double kDiameter = 5;
+constexpr int kGrains = 7958;
+
+struct Scene {
+  std::string name;
+  lbm::Precision precision;
+  FractionMethod fraction;
+  bool moving, own_coefficients;
+};
+
+std::vector<PrescribedGrains::Grain> bed() {
+  std::vector<PrescribedGrains::Grain> grains;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> jitter(-0.1, 0.1);
+  for (int k = 0; k < 32; ++k)
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < 16; ++i) {
+        if (static_cast<int>(grains.size()) == kGrains) return grains;
+        PrescribedGrains::Grain g;
+        g.position =
+            5.25 * Vec3(i + 0.5, j + 0.5, k + 0.5) + Vec3(jitter(random), jitter(random), jitter(random));
+        g.radius = kDiameter / 2;
+        grains.push_back(g);
+      }
+  return grains;
+}
+
+CoupledSettings settings_of(const Scene& scene) {
+  CoupledSettings settings;
+  settings.units.density = 1;
+  settings.units.viscosity = 0.1 / 3;
+  settings.units.spacing = 1;
+  settings.units.time_step = 1;
+  settings.fluid.precision = scene.precision;
+  for (auto& face : settings.fluid.faces) face.kind = lbm::FaceKind::no_slip;
+  settings.solids.fraction = scene.fraction;
+  settings.solids.cells.own_coefficients = scene.own_coefficients;
+  settings.substeps = 1;
+  return settings;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+double slowest(double mine) {
+  double all = 0;
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return all;
+}
+
+void run_scene(benchmark::State& state, const Scene& scene) {
+  PrescribedGrains grains(bed(), Vec3(kCells[0], kCells[1], kCells[2]), {false, false, false}, 1.);
+  grains.mobile = scene.moving;
+  if (scene.moving) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> speed(-0.01, 0.01);
+    for (auto& g : grains.list) g.velocity = Vec3(speed(random), speed(random), speed(random));
+  }
+  CoupledSimulation simulation(settings_of(scene), lbm::Decomposition::balanced(MPI_COMM_WORLD, kCells),
+                               Vec3::Zero(), grains);
+  const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, kCells}.volume());
+  constexpr int steps = 10;
+  for (int n = 0; n < 2; ++n) simulation.step();
+  std::vector<double> bare, fluid, mapping, exchange, shares;
+  for (auto _ : state) {
+    MPI_Barrier(MPI_COMM_WORLD);
+    double start = MPI_Wtime();
+    for (int n = 0; n < steps; ++n) simulation.fluid().bare_update();
+    bare.push_back(slowest(MPI_Wtime() - start) / steps);
+    simulation.times() = {};
+    MPI_Barrier(MPI_COMM_WORLD);
+    start = MPI_Wtime();
+    for (int n = 0; n < steps; ++n) {
+      simulation.step();
+      for (auto& g : grains.list)
+        if (scene.moving && n % 2 == 1) g.velocity = -g.velocity;
+    }
+    const CoupledTimes& times = simulation.times();
+    fluid.push_back(slowest(times.fluid) / steps);
+    mapping.push_back(slowest(times.mapping) / steps);
+    exchange.push_back(slowest(times.exchange) / steps);
+    shares.push_back((fluid.back() + mapping.back() + exchange.back()) / bare.back());
+    state.SetIterationTime(fluid.back() + mapping.back() + exchange.back());
+  }
+  state.counters["bare_ms"] = 1e3 * median(bare);
+  state.counters["fluid_ms"] = 1e3 * median(fluid);
+  state.counters["mapping_ms"] = 1e3 * median(mapping);
+  state.counters["exchange_ms"] = 1e3 * median(exchange);
+  state.counters["per_bare"] = median(shares);
+  state.counters["solids_per_fluid"] = (median(mapping) + median(exchange)) / median(fluid);
+  state.counters["MLUPS"] = cells * 1e-6 / (median(fluid) + median(mapping) + median(exchange));
+  state.counters["bytes_per_cell"] =
+      static_cast<double>(simulation.fluid().bytes() + simulation.mapping().bytes()) /
+      static_cast<double>(simulation.fluid().decomposition().local_box().volume());
+}
+
+/// Ranks other than the first take part in every run and say nothing.
+class Silent : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>&) override {}
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  benchmark::Initialize(&argc, argv);
+  std::vector<Scene> scenes;
+  for (const lbm::Precision precision : {lbm::Precision::double_precision, lbm::Precision::float_precision}) {
+    const std::string storage = precision == lbm::Precision::double_precision ? "/double" : "/float";
+    scenes.push_back({"moving/linear" + storage, precision, FractionMethod::linear, true, false});
+    scenes.push_back({"moving/exact" + storage, precision, FractionMethod::exact, true, false});
+    scenes.push_back(
+        {"moving/exact/own_coefficients" + storage, precision, FractionMethod::exact, true, true});
+    scenes.push_back({"moving/subcells" + storage, precision, FractionMethod::subcells, true, false});
+    scenes.push_back({"at_rest/exact" + storage, precision, FractionMethod::exact, false, false});
+  }
+  for (const Scene& scene : scenes)
+    benchmark::RegisterBenchmark(scene.name.c_str(), run_scene, scene)
+        ->UseManualTime()
+        ->Unit(benchmark::kMillisecond)
+        ->Iterations(11);  // every rank must make the same number, so none is left to a clock
+  Silent silent;
+  if (rank == 0)
+    benchmark::RunSpecifiedBenchmarks();
+  else
+    benchmark::RunSpecifiedBenchmarks(&silent);
+  MPI_Finalize();
+  return 0;
+}
