@@ -112,6 +112,10 @@ void register_styles(LAMMPS* lmp) {
   EarlyStop::supported = true;
 }
 
+void add_command(LAMMPS* lmp, const std::string& name, CommandCreator command) {
+  (*(lmp->input->*member_of(CommandMap{})))[name] = command;
+}
+
 std::vector<std::string> registered_styles() {
   std::vector<std::string> names;
   for (const auto& [name, creator] : our_computes()) names.push_back("compute " + name);

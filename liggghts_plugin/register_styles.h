@@ -13,6 +13,10 @@ namespace suffuse {
 /// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line.
 void register_styles(LAMMPS_NS::LAMMPS* lmp);
 
+/// Makes a command known that is defined elsewhere. It gets the words after its name.
+void add_command(LAMMPS_NS::LAMMPS* lmp, const std::string& name,
+                 void (*command)(LAMMPS_NS::LAMMPS*, int narg, char** arg));
+
 /// Names of what register_styles adds, as "fix stress/servo", sorted.
 std::vector<std::string> registered_styles();
 

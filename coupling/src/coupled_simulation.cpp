@@ -20,10 +20,9 @@ lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Un
 
 /// DEM steps a fluid step: as asked for, or as many as the grains' time step needs. The two clocks must agree
 /// to a part in a million, or forces would act for another time than the fluid's.
-int substeps_for(const CoupledSettings& settings, const lbm::Units& units, double grain_step) {
+int checked_substeps(int asked, const lbm::Units& units, double grain_step) {
   const double ratio = units.time_step() / grain_step;
-  const int substeps =
-      settings.substeps > 0 ? settings.substeps : std::max(1, static_cast<int>(std::lround(ratio)));
+  const int substeps = asked > 0 ? asked : std::max(1, static_cast<int>(std::lround(ratio)));
   if (std::abs(ratio / substeps - 1) > 1e-6)
     throw_user_error(
         {"lbm couple", "substeps", fmt::format("{} of {:.8g} s", substeps, grain_step),
@@ -59,8 +58,12 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       fluid_(fluid_settings(settings, units_), decomposition),
       mapping_(settings.solids, fluid_.instruction_set(), fluid_.use_partial_solids(settings.solids.cells),
                decomposition.local_box()),
-      substeps_(substeps_for(settings, units_, grains.time_step())) {
+      substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
   set_pressure_gradient(settings.pressure_gradient);
+}
+
+void CoupledSimulation::set_substeps(int substeps) {
+  substeps_ = checked_substeps(substeps, units_, grains_.time_step());
 }
 
 void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
@@ -116,18 +119,21 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
                          vector_at(grains.angular_velocity, n)};
     double* h = memory.history + kHistoryLength * n;
-    const GrainHistory before{
-        h[12] != 0, vector_at(h, 0), vector_at(h, 1), {vector_at(h, 2), vector_at(h, 3)}};
+    const auto past = [h](int place) { return Vec3(Eigen::Map<const Vec3>(h + place)); };
+    const auto keep = [h](int place, const Vec3& value) { Eigen::Map<Vec3>(h + place) = value; };
+    const GrainHistory before{h[history::known] != 0,
+                              past(history::velocity),
+                              past(history::angular_velocity),
+                              {past(history::exchange_force), past(history::exchange_torque)}};
     const Load load = hydrodynamic_load(exchange, now, before, rule);
-    for (int a = 0; a < 3; ++a) {
-      memory.force[3 * n + a] = load.force[a];
-      memory.torque[3 * n + a] = load.torque[a];
-      h[a] = now.velocity[a];
-      h[3 + a] = now.angular_velocity[a];
-      h[6 + a] = exchange.force[a];
-      h[9 + a] = exchange.torque[a];
-    }
-    h[12] = 1;
+    Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
+    Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
+    if (before.known) keep(history::acceleration, (now.velocity - before.velocity) / rule.time_step);
+    keep(history::velocity, now.velocity);
+    keep(history::angular_velocity, now.angular_velocity);
+    keep(history::exchange_force, exchange.force);
+    keep(history::exchange_torque, exchange.torque);
+    h[history::known] = 1;
   }
   loads_are_current_ = true;
 }
@@ -149,8 +155,7 @@ void CoupledSimulation::step() {
     fluid_.step();
   }
   loads_are_current_ = false;
-  if (!grains_.any_mobile()) return;
-  refresh_loads();
+  if (grains_.reads_loads(substeps_)) refresh_loads();
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);
 }

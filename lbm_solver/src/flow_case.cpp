@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "suffuse/common/error.h"
+#include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::lbm {
 
@@ -225,20 +226,7 @@ FlowCase read_flow_case(const std::string& path) {
 }
 
 Index3 cells_of(const FlowCase& flow, const Units& units) {
-  static const char* const names[] = {"x", "y", "z"};
-  Index3 cells{};
-  for (int a = 0; a < 3; ++a) {
-    const double exact = units.length_to_lattice(flow.size[a]);
-    const double whole = std::max(1., std::round(exact));
-    // A thousandth of a cell over the whole box is how a person rounds, not another geometry.
-    if (std::abs(exact - whole) > 1e-3)
-      throw_user_error({"fluid lattice", std::string("size along ") + names[a],
-                        fmt::format("{:g} m", flow.size[a]),
-                        fmt::format("be a whole number of cells of {:g} m", units.spacing()),
-                        fmt::format("spacing {:.9g} fits", flow.size[a] / whole)});
-    cells[static_cast<std::size_t>(a)] = static_cast<int>(whole);
-  }
-  return cells;
+  return whole_cells(flow.size, units.spacing(), "fluid lattice");
 }
 
 FaceConditions faces_at(const FlowCase& flow, const Units& units, double time_si) {

@@ -24,8 +24,7 @@ class PrescribedGrains final : public ParticlePort {
                    double step)
       : box_(box), periodic_(periodic), step_(step), list(std::move(grains)) {
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    memory_force_.assign(3 * list.size(), 0);
-    memory_torque_.assign(3 * list.size(), 0);
+    load_.assign(6 * list.size(), 0);
     history_.assign(kHistoryLength * list.size(), 0);
   }
 
@@ -74,17 +73,20 @@ class PrescribedGrains final : public ParticlePort {
     }
   }
 
-  GrainMemory memory() override { return {memory_force_.data(), memory_torque_.data(), history_.data()}; }
-  bool any_mobile() const override { return mobile; }
+  GrainMemory memory() override { return {load_.data(), history_.data()}; }
+  bool reads_loads(int) override { return mobile; }
   double time_step() const override { return step_; }
 
   void advance(int substeps) override {
+    if (!mobile) return;
     for (std::size_t n = 0; n < list.size(); ++n) {
       Grain& g = list[n];
       const double mass = g.density * sphere_volume(g.radius), inertia = 0.4 * mass * g.radius * g.radius;
       const double time = substeps * step_;
       if (free) {
-        const Vec3 acceleration = force_on(n) / mass + gravity;
+        const double added = virtual_density * sphere_volume(g.radius);
+        const Vec3 before = Eigen::Map<const Vec3>(&history_[kHistoryLength * n + history::acceleration]);
+        const Vec3 acceleration = (force_on(n) + mass * gravity + added * before) / (mass + added);
         g.position += time * (g.velocity + 0.5 * time * acceleration);
         g.velocity += time * acceleration;
         g.angular_velocity += time / inertia * torque_on(n);
@@ -97,8 +99,8 @@ class PrescribedGrains final : public ParticlePort {
     }
   }
 
-  Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(memory_force_.data() + 3 * n); }
-  Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(memory_torque_.data() + 3 * n); }
+  Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n); }
+  Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n + 3); }
 
  private:
   void add(std::size_t n, const Vec3& position) {
@@ -118,7 +120,7 @@ class PrescribedGrains final : public ParticlePort {
   std::array<bool, 3> periodic_;
   double step_;
   int rank_ = 0;
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, memory_force_, memory_torque_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;
 
@@ -127,6 +129,7 @@ class PrescribedGrains final : public ParticlePort {
   bool mobile = false;  ///< moved at their velocities
   bool free = false;    ///< with `mobile`: driven by the fluid and gravity
   Vec3 gravity = Vec3::Zero();
+  double virtual_density = 0;  ///< Cv rho_f: as FixHydrodynamicForce
 };
 
 }  // namespace suffuse::coupling

@@ -44,6 +44,8 @@ class CoupledSimulation {
 
   /// DEM steps a fluid step.
   int substeps() const { return substeps_; }
+  /// From the next step on; the grains' time step must fill a fluid step then (a UserError otherwise).
+  void set_substeps(int substeps);
   double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
 
   /// Spheres (copies included) that the last step mapped anew on this rank.

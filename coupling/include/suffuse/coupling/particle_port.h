@@ -19,13 +19,19 @@ struct GrainArrays {
 
 /// What stays with a grain from one fluid step to the next, wherever it migrates; SI, owned grains only.
 struct GrainMemory {
-  double* force = nullptr;   ///< 3 owned, N: applied in every DEM step until the next fluid step
-  double* torque = nullptr;  ///< 3 owned, N m
-  /// 13 per grain: velocity and angular velocity that the last fluid step saw (6), its exchange force and
-  /// torque (6), and 1 once there was such a step.
-  double* history = nullptr;
+  double* load = nullptr;  ///< 6 per grain, applied in every DEM step until the next fluid step: force (N),
+                           ///< torque about the centre (N m)
+  double* history = nullptr;  ///< kHistoryLength per grain, in the order of `history`
 };
-inline constexpr int kHistoryLength = 13;
+
+/// Places in a grain's history: what the last fluid step saw and gave.
+namespace history {
+inline constexpr int velocity = 0, angular_velocity = 3;       ///< m/s, rad/s
+inline constexpr int exchange_force = 6, exchange_torque = 9;  ///< N, N m
+inline constexpr int known = 12;                               ///< 1 once there was such a step
+inline constexpr int acceleration = 13;                        ///< over the fluid step before, m/s^2
+}  // namespace history
+inline constexpr int kHistoryLength = 16;
 
 /// What the coupling asks of a discrete-element code.
 class ParticlePort {
@@ -41,9 +47,9 @@ class ParticlePort {
 
   virtual GrainMemory memory() = 0;
 
-  /// Does anything move any grain on any rank? Otherwise loads are computed when asked for, and `advance` is
-  /// never called.
-  virtual bool any_mobile() const = 0;
+  /// Will anything read the loads in the next so many DEM steps: something that moves a grain on any rank, or
+  /// an output? Otherwise they are computed when asked for.
+  virtual bool reads_loads(int substeps) = 0;
 
   /// Grains' step, s.
   virtual double time_step() const = 0;

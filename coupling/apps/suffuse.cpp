@@ -1,4 +1,4 @@
-// suffuse: LIGGGHTS with our fixes, computes and commands. Runs an ordinary LIGGGHTS script.
+// suffuse: LIGGGHTS with our fixes, computes and commands, and a fluid. Runs an ordinary LIGGGHTS script.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "../register_styles.h"
+#include "../commands/lbm_command.h"
 #include "error.h"
 #include "input.h"
 #include "lammps.h"
+#include "register_styles.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -55,6 +56,7 @@ bool answered_without_a_script(int argc, char** argv) {
   }
   if (given(argc, argv, "--styles")) {
     for (const std::string& name : suffuse::registered_styles()) fmt::print("{}\n", name);
+    fmt::print("command lbm\n");
     return true;
   }
   return false;
@@ -112,7 +114,9 @@ int run_script(int argc, char** argv, int rank) {
     add_script_folder(arguments, script_name(argc, argv));
     lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
     suffuse::register_styles(lmp);
+    suffuse::coupling::LbmCommand::add_to(lmp);
     lmp->input->file();
+    suffuse::coupling::LbmCommand::remove_from(lmp);
     delete lmp;
     return 0;
   } catch (const suffuse::UserError& problem) {

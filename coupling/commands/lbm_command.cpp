@@ -1,0 +1,214 @@
+#include "lbm_command.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "domain.h"
+#include "lammps.h"
+#include "lbm_run.h"
+#include "region.h"
+#include "region_block.h"
+#include "register_styles.h"
+#include "suffuse/common/error.h"
+#include "suffuse/lbm/checkpoint.h"
+#include "suffuse/lbm/whole_cells.h"
+#include "update.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+using Instances = std::map<LAMMPS_NS::LAMMPS*, std::unique_ptr<LbmCommand>>;
+Instances& instances() {
+  static Instances all;
+  return all;
+}
+
+void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
+  auto& instance = instances()[lmp];
+  if (instance == nullptr) instance = std::make_unique<LbmCommand>(lmp);
+  instance->line(narg, arg);
+}
+
+/// Low corner and size of the fluid: a block region, or LIGGGHTS's box.
+struct FluidBox {
+  Vec3 low, size;
+};
+FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::string& region) {
+  if (region.empty()) return {port.box_low(), port.box_size()};
+  std::string name = region;
+  const int index = lmp->domain->find_region(name.data());
+  if (index < 0 || std::string(lmp->domain->regions[index]->style) != "block")
+    throw_user_error({"lbm lattice", "region", region, "be a block region that exists",
+                      fmt::format("write `region {} block ...` before", region)});
+  const auto* block = lmp->domain->regions[index];
+  FluidBox box{{block->extent_xlo, block->extent_ylo, block->extent_zlo},
+               {block->extent_xhi, block->extent_yhi, block->extent_zhi}};
+  const Vec3 low = port.box_low(), high = low + port.box_size();
+  for (int a = 0; a < 3; ++a) {
+    box.low[a] = std::max(box.low[a], low[a]);
+    box.size[a] = std::min(box.size[a], high[a]) - box.low[a];
+    if (lmp->domain->periodicity[a] != 0 && box.size[a] < 0.999999 * port.box_size()[a])
+      throw_user_error({"lbm lattice", "region", region, "span the whole box along a periodic axis", ""});
+  }
+  return box;
+}
+
+}  // namespace
+
+void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
+  add_command(lmp, "lbm", &run_line);
+}
+
+void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
+  instances().erase(lmp);
+}
+
+void LbmCommand::line(int narg, char** arg) {
+  static const char* known =
+      "preset, fluid, lattice, boundary, force, collision, solid, effect, couple, monitor, output, plan, "
+      "run, "
+      "restart, clear";
+  const std::string word = narg > 0 ? arg[0] : "";
+  ArgumentReader reader("lbm " + word, narg, arg, 1);
+  const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
+      {"preset", read_preset},       {"fluid", read_fluid}, {"lattice", read_lattice},
+      {"collision", read_collision}, {"solid", read_solid}, {"effect", read_effect}};
+  if (const auto reading = before_start.find(word); reading != before_start.end()) {
+    refuse_after_start(word);
+    reading->second(reader, settings_);
+  } else if (word == "boundary") {
+    read_boundary(reader, lmp_, settings_);
+  } else if (word == "force") {
+    read_force(reader, lmp_, settings_);
+  } else if (word == "couple") {
+    read_couple(reader, settings_);
+  } else if (word == "monitor") {
+    read_monitor(reader, settings_);
+  } else if (word == "output") {
+    read_output(reader, settings_);
+  } else if (word == "plan") {
+    plan(reader);
+  } else if (word == "run") {
+    run(reader);
+  } else if (word == "restart") {
+    restart(reader);
+  } else if (word == "clear") {
+    simulation_.reset();
+    port_.reset();
+    settings_ = {};
+    state_to_read_.clear();
+  } else {
+    throw_user_error({"lbm", "word", word.empty() ? "nothing" : word, std::string("be one of: ") + known,
+                      "see docs/reference/lbm.md"});
+  }
+  if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+}
+
+void LbmCommand::refuse_after_start(const std::string& word) const {
+  if (simulation_ != nullptr)
+    throw_user_error({"lbm " + word, "line", "after lbm run", "come before the first lbm run",
+                      "move it up, or end the fluid with `lbm clear` first"});
+}
+
+void LbmCommand::require_lattice(const std::string& who) const {
+  if (!settings_.lattice_given)
+    throw_user_error({who, "lattice", "none", "be defined before",
+                      "write `lbm lattice spacing 4e-5 relaxation_time 0.8`"});
+  if (lmp_->domain->box_exist == 0)
+    throw_user_error({who, "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});
+}
+
+void LbmCommand::restart(ArgumentReader& reader) {
+  const std::string mode = reader.word("write or read");
+  const std::string file = reader.word("file");
+  if (mode == "read") {
+    refuse_after_start("restart read");
+    state_to_read_ = file;
+  } else if (mode == "write") {
+    if (reader.accept("every")) {
+      settings_.checkpoint = CheckpointRequest{file, reader.positive("every")};
+    } else if (simulation_ == nullptr) {
+      throw_user_error(
+          {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
+    } else {
+      lbm::save_state(simulation_->fluid(), file);
+    }
+  } else {
+    reader.unknown(mode, "write, read");
+  }
+}
+
+/// A sphere's virtual mass is half of the fluid that it displaces. Grains much heavier than the fluid are
+/// stable without, and then momentum is conserved to round-off.
+double LbmCommand::virtual_mass() const {
+  if (settings_.virtual_mass) return *settings_.virtual_mass;
+  constexpr double lightest_stable = 1.5;
+  const auto grains = port_->summary();
+  return grains.grains > 0 && grains.smallest_density < lightest_stable * settings_.coupled.units.density
+             ? 0.5
+             : 0.;
+}
+
+void LbmCommand::build() {
+  const lbm::Units units(settings_.coupled.units);
+  const FluidBox box = fluid_box(lmp_, *port_, settings_.region);
+  CoupledSettings coupled = settings_.coupled;
+  coupled.fluid.faces = faces_now(settings_, units, lmp_);
+  port_->check_box(coupled.fluid.faces);
+  const lbm::Index3 cells = lbm::whole_cells(box.size, units.spacing(), "lbm lattice");
+  if (coupled.effects.turbulence == Switch::on) coupled.fluid.collision.smagorinsky = settings_.smagorinsky;
+  coupled.substeps = choose_substeps();
+  const auto decomposition = port_->decomposition(box.low, units.spacing(), cells);
+  simulation_ = std::make_unique<CoupledSimulation>(coupled, decomposition, box.low, *port_);
+  if (!state_to_read_.empty()) lbm::load_state(simulation_->fluid(), state_to_read_);
+}
+
+/// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many
+/// equal ones as it needs, or as `substeps` says.
+int LbmCommand::choose_substeps() {
+  const double fluid_step = lbm::Units(settings_.coupled.units).time_step(), largest = lmp_->update->dt;
+  const int needed = std::max(1, static_cast<int>(std::ceil(fluid_step / largest * (1 - 1e-9))));
+  const int asked = settings_.coupled.substeps;
+  if (asked > 0 && asked < needed)
+    throw_user_error({"lbm couple", "substeps", fmt::format("{}", asked),
+                      fmt::format("be at least {}: a fluid step is {:.6g} s, the DEM's `timestep` {:.6g} s",
+                                  needed, fluid_step, largest),
+                      "use `substeps auto`"});
+  const int substeps = asked > 0 ? asked : needed;
+  port_->set_time_step(fluid_step / substeps);
+  return substeps;
+}
+
+void LbmCommand::plan(ArgumentReader& reader) {
+  require_lattice(reader.who());
+  const double time = reader.positive("time");
+  (void)time;
+}
+
+void LbmCommand::run(ArgumentReader& reader) {
+  require_lattice(reader.who());
+  RunRequest request;
+  request.time = reader.positive("time");
+  if (reader.accept("until")) {
+    if (!reader.accept("steady")) reader.unknown(reader.word("condition"), "steady");
+    request.steady = reader.positive("share");
+  }
+  if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+  if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
+  if (simulation_ == nullptr) {
+    build();
+  } else {
+    port_->check_unchanged();
+    port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
+    simulation_->set_substeps(choose_substeps());
+  }
+  port_->set_virtual_density(virtual_mass() * settings_.coupled.units.density);
+  LbmRun(lmp_, settings_, *port_, *simulation_).run(request);
+}
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "../liggghts/liggghts_port.h"
+#include "lbm_settings.h"
+#include "suffuse/coupling/coupled_simulation.h"
+
+namespace suffuse::coupling {
+
+/// The `lbm` command of one LIGGGHTS instance (docs/reference/lbm.md): keeps what its lines have said, builds
+/// the fluid when the first one needs it, and runs it.
+class LbmCommand {
+ public:
+  /// Makes the word `lbm` known to a LIGGGHTS instance.
+  static void add_to(LAMMPS_NS::LAMMPS* lmp);
+  /// Ends the fluid of an instance; before LIGGGHTS is closed.
+  static void remove_from(LAMMPS_NS::LAMMPS* lmp);
+
+  explicit LbmCommand(LAMMPS_NS::LAMMPS* lmp) : lmp_(lmp) {}
+
+  /// One line: the words after `lbm`.
+  void line(int narg, char** arg);
+
+ private:
+  void restart(ArgumentReader& reader);
+  void plan(ArgumentReader& reader);
+  void run(ArgumentReader& reader);
+  void refuse_after_start(const std::string& word) const;
+  void require_lattice(const std::string& who) const;
+  void build();
+  int choose_substeps();
+  double virtual_mass() const;
+
+  LAMMPS_NS::LAMMPS* lmp_;
+  LbmSettings settings_;
+  std::unique_ptr<LiggghtsPort> port_;
+  std::unique_ptr<CoupledSimulation> simulation_;
+  std::string state_to_read_;
+};
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,362 @@
+#include "lbm_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "domain.h"
+#include "lammps.h"
+#include "suffuse/common/error.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+/// The next word by its meaning; a UserError that lists the words if it has none.
+template <class Meaning>
+Meaning choose(ArgumentReader& reader, const std::string& what,
+               const std::vector<std::pair<std::string, Meaning>>& words) {
+  std::string known;
+  for (const auto& [word, meaning] : words) known += (known.empty() ? "" : ", ") + word;
+  const std::string given = reader.word(what + " (" + known + ")");
+  for (const auto& [word, meaning] : words)
+    if (word == given) return meaning;
+  throw_user_error({reader.who(), what, given, "be one of: " + known, ""});
+}
+
+const std::vector<std::pair<std::string, bool>> kYesNo{{"yes", true}, {"no", false}};
+const std::vector<std::pair<std::string, Switch>> kSwitch{
+    {"on", Switch::on}, {"off", Switch::off}, {"auto", Switch::automatic}};
+
+void refuse_repeated(const ArgumentReader& reader, const std::string& word, bool given) {
+  if (given) throw_user_error({reader.who(), word, "given twice", "be given once", "drop one of the lines"});
+}
+
+}  // namespace
+
+void read_preset(ArgumentReader& reader, LbmSettings& settings) {
+  enum class Preset { thesis, standard };
+  const auto preset =
+      choose<Preset>(reader, "preset", {{"thesis", Preset::thesis}, {"default", Preset::standard}});
+  const CoupledSettings standard;
+  auto& coupled = settings.coupled;
+  coupled.fluid.collision = standard.fluid.collision;
+  coupled.solids = standard.solids;
+  coupled.effects = standard.effects;
+  coupled.average_force = standard.average_force;
+  settings.virtual_mass.reset();
+  if (preset == Preset::standard) return;
+  // Thesis sections 3.3 and 3.4, Appendix C: one relaxation time, SC1 with Noble and Torczynski's weighting,
+  // 5 x 5 x 5 sub-cells, no lubrication.
+  coupled.fluid.collision.collision_operator = lbm::CollisionOperator::bgk;
+  coupled.solids.cells.solid_operator = lbm::SolidOperator::sc1;
+  coupled.solids.cells.weighting = lbm::SolidWeighting::noble_torczynski;
+  coupled.solids.automatic_coefficient = false;
+  coupled.solids.fraction = FractionMethod::subcells;
+  coupled.solids.subcells = 5;
+  coupled.effects.turbulence = Switch::off;
+  coupled.effects.lubrication = Switch::off;
+  settings.virtual_mass = 0;
+}
+
+void read_fluid(ArgumentReader& reader, LbmSettings& settings) {
+  lbm::UnitsRequest units = settings.coupled.units;
+  while (!reader.done()) {
+    if (reader.accept("density"))
+      units.density = reader.positive("density");
+    else if (reader.accept("viscosity"))
+      units.viscosity = reader.positive("viscosity");
+    else
+      reader.unknown(reader.word("keyword"), "density, viscosity");
+  }
+  settings.coupled.units = units;
+  settings.fluid_given = true;
+}
+
+void read_lattice(ArgumentReader& reader, LbmSettings& settings) {
+  lbm::UnitsRequest units = settings.coupled.units;
+  units.spacing.reset();
+  units.relaxation_time.reset();
+  units.time_step.reset();
+  units.mach.reset();
+  units.largest_velocity.reset();
+  lbm::Precision precision = settings.coupled.fluid.precision;
+  std::string region = settings.region;
+  while (!reader.done()) {
+    if (reader.accept("spacing"))
+      units.spacing = reader.positive("spacing");
+    else if (reader.accept("relaxation_time"))
+      units.relaxation_time = reader.positive("relaxation_time");
+    else if (reader.accept("timestep"))
+      units.time_step = reader.positive("timestep");
+    else if (reader.accept("max_velocity"))
+      units.largest_velocity = reader.positive("max_velocity");
+    else if (reader.accept("mach"))
+      units.mach = reader.positive("mach");
+    else if (reader.accept("precision"))
+      precision = choose<lbm::Precision>(
+          reader, "precision",
+          {{"double", lbm::Precision::double_precision}, {"float", lbm::Precision::float_precision}});
+    else if (reader.accept("region"))
+      region = reader.word("region");
+    else
+      reader.unknown(reader.word("keyword"),
+                     "spacing, relaxation_time, timestep, max_velocity, mach, precision, region");
+  }
+  const lbm::Units check(units);  // refuses what cannot work
+  settings.coupled.units = units;
+  settings.coupled.fluid.precision = precision;
+  settings.region = region;
+  settings.lattice_given = true;
+}
+
+void read_boundary(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings) {
+  auto faces = settings.faces;
+  std::array<bool, lbm::kFaces> named{};
+  while (!reader.done()) {
+    const auto face = choose<lbm::Face>(reader, "face",
+                                        {{"xlo", lbm::Face::xlo},
+                                         {"xhi", lbm::Face::xhi},
+                                         {"ylo", lbm::Face::ylo},
+                                         {"yhi", lbm::Face::yhi},
+                                         {"zlo", lbm::Face::zlo},
+                                         {"zhi", lbm::Face::zhi}});
+    const auto index = static_cast<std::size_t>(face);
+    refuse_repeated(reader, lbm::name_of(face), named[index]);
+    named[index] = true;
+    ScriptFace& f = faces[index];
+    f = {};
+    f.given = true;
+    f.kind = choose<lbm::FaceKind>(reader, "kind of " + lbm::name_of(face),
+                                   {{"periodic", lbm::FaceKind::periodic},
+                                    {"noslip", lbm::FaceKind::no_slip},
+                                    {"freeslip", lbm::FaceKind::free_slip},
+                                    {"velocity", lbm::FaceKind::velocity},
+                                    {"pressure", lbm::FaceKind::pressure}});
+    if (f.kind == lbm::FaceKind::velocity) f.velocity = ScriptVector::read(reader, lmp, "velocity");
+    if (f.kind == lbm::FaceKind::pressure) f.pressure = ScriptValue::read(reader, lmp, "pressure");
+  }
+  settings.faces = faces;
+}
+
+void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings) {
+  if (reader.done())
+    throw_user_error({reader.who(), "keyword", "missing", "be gravity or pressure_gradient", ""});
+  ScriptVector gravity = settings.gravity, gradient = settings.pressure_gradient;
+  while (!reader.done()) {
+    if (reader.accept("gravity"))
+      gravity = ScriptVector::read(reader, lmp, "gravity");
+    else if (reader.accept("pressure_gradient"))
+      gradient = ScriptVector::read(reader, lmp, "pressure_gradient");
+    else
+      reader.unknown(reader.word("keyword"), "gravity, pressure_gradient");
+  }
+  settings.gravity = gravity;
+  settings.pressure_gradient = gradient;
+}
+
+void read_collision(ArgumentReader& reader, LbmSettings& settings) {
+  lbm::CollisionSettings collision = settings.coupled.fluid.collision;
+  collision.collision_operator =
+      choose<lbm::CollisionOperator>(reader, "operator",
+                                     {{"bgk", lbm::CollisionOperator::bgk},
+                                      {"trt", lbm::CollisionOperator::trt},
+                                      {"central_moments", lbm::CollisionOperator::central_moments}});
+  while (!reader.done()) {
+    if (reader.accept("magic"))
+      collision.magic = reader.positive("magic");
+    else if (reader.accept("incompressible"))
+      collision.incompressible = choose<bool>(reader, "incompressible", kYesNo);
+    else
+      reader.unknown(reader.word("keyword"), "magic, incompressible");
+  }
+  settings.coupled.fluid.collision = collision;
+}
+
+void read_solid(ArgumentReader& reader, LbmSettings& settings) {
+  SolidSettings solids = settings.coupled.solids;
+  (void)reader.accept("psm");
+  bool coefficient_given = false;
+  while (!reader.done()) {
+    if (reader.accept("operator")) {
+      solids.cells.solid_operator = choose<lbm::SolidOperator>(reader, "operator",
+                                                               {{"sc1", lbm::SolidOperator::sc1},
+                                                                {"sc2", lbm::SolidOperator::sc2},
+                                                                {"sc3", lbm::SolidOperator::sc3},
+                                                                {"force", lbm::SolidOperator::force}});
+    } else if (reader.accept("weighting")) {
+      solids.cells.weighting = choose<lbm::SolidWeighting>(
+          reader, "weighting",
+          {{"fraction", lbm::SolidWeighting::fraction},
+           {"noble_torczynski", lbm::SolidWeighting::noble_torczynski},
+           {"viscosity_independent", lbm::SolidWeighting::viscosity_independent}});
+    } else if (reader.accept("coefficient")) {
+      coefficient_given = true;
+      solids.automatic_coefficient = reader.accept("auto");
+      if (!solids.automatic_coefficient) solids.cells.coefficient = reader.positive("coefficient");
+    } else if (reader.accept("fraction")) {
+      solids.fraction = choose<FractionMethod>(reader, "fraction",
+                                               {{"exact", FractionMethod::exact},
+                                                {"linear", FractionMethod::linear},
+                                                {"subcells", FractionMethod::subcells}});
+      if (solids.fraction == FractionMethod::subcells && reader.next_is_number()) {
+        const auto n = reader.positive_integer("subcells");
+        if (n > 32)
+          throw_user_error(
+              {reader.who(), "subcells", fmt::format("{}", n), "be at most 32", "5 is the thesis's"});
+        solids.subcells = static_cast<int>(n);
+      }
+    } else if (reader.accept("remap")) {
+      solids.remap_distance = reader.positive("remap");
+    } else {
+      reader.unknown(reader.word("keyword"), "operator, weighting, coefficient, fraction, remap");
+    }
+  }
+  const bool has_coefficient = solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  if (!has_coefficient) {
+    if (coefficient_given)
+      throw_user_error({reader.who(), "coefficient", "given", "go with weighting viscosity_independent",
+                        "drop it, or change the weighting"});
+    solids.automatic_coefficient = false;
+  } else if (!coefficient_given &&
+             settings.coupled.solids.cells.weighting != lbm::SolidWeighting::viscosity_independent) {
+    solids.automatic_coefficient = true;
+  }
+  settings.coupled.solids = solids;
+}
+
+void read_effect(ArgumentReader& reader, LbmSettings& settings) {
+  EffectSettings effects = settings.coupled.effects;
+  double smagorinsky = settings.smagorinsky;
+  while (!reader.done()) {
+    if (reader.accept("turbulence")) {
+      effects.turbulence = choose<Switch>(reader, "turbulence", kSwitch);
+      if (reader.next_is_number()) smagorinsky = reader.positive("Smagorinsky constant");
+    } else if (reader.accept("lubrication")) {
+      effects.lubrication = choose<Switch>(reader, "lubrication", kSwitch);
+    } else if (reader.accept("buoyancy")) {
+      effects.buoyancy = choose<Switch>(reader, "buoyancy", kSwitch);
+    } else if (reader.accept("rotation")) {
+      effects.rotation = choose<Switch>(reader, "rotation", kSwitch);
+    } else {
+      reader.unknown(reader.word("keyword"), "turbulence, lubrication, buoyancy, rotation");
+    }
+  }
+  settings.coupled.effects = effects;
+  settings.smagorinsky = smagorinsky;
+}
+
+void read_couple(ArgumentReader& reader, LbmSettings& settings) {
+  int substeps = settings.coupled.substeps;
+  bool average = settings.coupled.average_force;
+  std::optional<double> virtual_mass = settings.virtual_mass;
+  double largest_mach = settings.largest_mach;
+  while (!reader.done()) {
+    if (reader.accept("substeps")) {
+      substeps = reader.accept("auto") ? 0 : static_cast<int>(reader.positive_integer("substeps"));
+    } else if (reader.accept("average_force")) {
+      average = choose<bool>(reader, "average_force", kYesNo);
+    } else if (reader.accept("virtual_mass")) {
+      if (reader.accept("auto")) {
+        virtual_mass.reset();
+      } else {
+        virtual_mass = reader.number("virtual_mass");
+        if (*virtual_mass < 0)
+          throw_user_error({reader.who(), "virtual_mass", fmt::format("{:g}", *virtual_mass), "be >= 0",
+                            "0.5 is that of a sphere; `auto` decides"});
+      }
+    } else if (reader.accept("max_mach")) {
+      largest_mach = reader.positive("max_mach");
+    } else {
+      reader.unknown(reader.word("keyword"), "substeps, average_force, virtual_mass, max_mach");
+    }
+  }
+  settings.coupled.substeps = substeps;
+  settings.coupled.average_force = average;
+  settings.virtual_mass = virtual_mass;
+  settings.largest_mach = largest_mach;
+}
+
+void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
+  MonitorRequest monitor;
+  monitor.id = reader.word("ID of the monitor");
+  if (reader.accept("off")) {
+    std::erase_if(settings.monitors, [&](const MonitorRequest& m) { return m.id == monitor.id; });
+    return;
+  }
+  for (const MonitorRequest& other : settings.monitors)
+    refuse_repeated(reader, "monitor " + monitor.id, other.id == monitor.id);
+  while (!reader.done()) {
+    if (reader.accept("every"))
+      monitor.every = reader.positive("every");
+    else if (reader.accept("file"))
+      monitor.file = reader.word("file");
+    else
+      monitor.quantities.push_back(reader.word("quantity"));
+  }
+  if (monitor.every <= 0 || monitor.file.empty() || monitor.quantities.empty())
+    throw_user_error({reader.who(), "monitor " + monitor.id, "incomplete", "have every, file and quantities",
+                      "lbm monitor m every 1e-3 file flow.csv superficial_velocity"});
+  settings.monitors.push_back(monitor);
+}
+
+void read_output(ArgumentReader& reader, LbmSettings& settings) {
+  OutputRequest output;
+  output.id = reader.word("ID of the output");
+  if (reader.accept("off")) {
+    std::erase_if(settings.outputs, [&](const OutputRequest& o) { return o.id == output.id; });
+    return;
+  }
+  for (const OutputRequest& other : settings.outputs)
+    refuse_repeated(reader, "output " + output.id, other.id == output.id);
+  static const std::map<std::string, lbm::Field> fields{{"velocity", lbm::Field::velocity},
+                                                        {"pressure", lbm::Field::pressure},
+                                                        {"density", lbm::Field::density},
+                                                        {"solid_fraction", lbm::Field::solid_fraction}};
+  while (!reader.done()) {
+    if (reader.accept("every")) {
+      output.every = reader.positive("every");
+    } else if (reader.accept("file")) {
+      output.file = reader.word("file");
+    } else {
+      (void)reader.accept("fields");
+      const std::string word = reader.word("field");
+      if (word == "grains")
+        output.grains = true;
+      else if (const auto field = fields.find(word); field != fields.end())
+        output.fields.push_back(field->second);
+      else
+        reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains");
+    }
+  }
+  if (output.every <= 0 || output.file.empty())
+    throw_user_error({reader.who(), "output " + output.id, "incomplete", "have every and file",
+                      "lbm output o every 1e-2 file bed.h5 velocity pressure solid_fraction grains"});
+  if (output.fields.empty())
+    output.fields = {lbm::Field::velocity, lbm::Field::pressure, lbm::Field::solid_fraction};
+  settings.outputs.push_back(output);
+}
+
+lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
+  lbm::FaceConditions faces;
+  for (std::size_t f = 0; f < lbm::kFaces; ++f) {
+    const ScriptFace& given = settings.faces[f];
+    lbm::FaceCondition& face = faces[f];
+    face.kind = given.kind;
+    if (!given.given && lmp->domain->periodicity[f / 2] != 0) face.kind = lbm::FaceKind::periodic;
+    if (face.kind == lbm::FaceKind::velocity)
+      face.velocity = units.velocity_to_lattice(given.velocity.now(lmp));
+    if (face.kind == lbm::FaceKind::pressure)
+      face.density = units.pressure_to_density_lattice(given.pressure.now(lmp));
+  }
+  return faces;
+}
+
+bool values_change(const LbmSettings& settings) {
+  for (const ScriptFace& face : settings.faces)
+    if (face.velocity.changes() || face.pressure.changes()) return true;
+  return settings.gravity.changes() || settings.pressure_gradient.changes();
+}
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "script_value.h"
+#include "suffuse/coupling/settings.h"
+#include "suffuse/lbm/field_output.h"
+
+namespace suffuse::coupling {
+
+/// One face as the script gives it, SI.
+struct ScriptFace {
+  lbm::FaceKind kind = lbm::FaceKind::no_slip;
+  bool given = false;
+  ScriptVector velocity;
+  ScriptValue pressure;
+};
+
+/// `lbm monitor`
+struct MonitorRequest {
+  std::string id, file;
+  double every = 0;  ///< s
+  std::vector<std::string> quantities;
+};
+
+/// `lbm output`
+struct OutputRequest {
+  std::string id, file;
+  double every = 0;  ///< s
+  std::vector<lbm::Field> fields;
+  bool grains = false;
+};
+
+/// `lbm restart write FILE every T`
+struct CheckpointRequest {
+  std::string file;
+  double every = 0;  ///< s
+};
+
+/// Everything that `lbm` lines of a script have said so far.
+struct LbmSettings {
+  CoupledSettings coupled;
+  bool fluid_given = false, lattice_given = false;
+  std::string region;  ///< of the fluid; empty: LIGGGHTS's box
+  std::array<ScriptFace, lbm::kFaces> faces;
+  ScriptVector gravity, pressure_gradient;
+  std::optional<double> virtual_mass;  ///< Cv; none: as the grains' densities need
+  double smagorinsky = 0.1;            ///< constant of the eddy viscosity where turbulence is on
+  double largest_mach = 0.3;           ///< the run stops above
+  std::vector<MonitorRequest> monitors;
+  std::vector<OutputRequest> outputs;
+  std::optional<CheckpointRequest> checkpoint;
+};
+
+/// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words
+/// that it does not know and values that cannot work, and leaves the settings as they were.
+/// docs/reference/lbm.md lists the words.
+void read_preset(ArgumentReader& reader, LbmSettings& settings);
+void read_fluid(ArgumentReader& reader, LbmSettings& settings);
+void read_lattice(ArgumentReader& reader, LbmSettings& settings);
+void read_boundary(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings);
+void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings);
+void read_collision(ArgumentReader& reader, LbmSettings& settings);
+void read_solid(ArgumentReader& reader, LbmSettings& settings);
+void read_effect(ArgumentReader& reader, LbmSettings& settings);
+void read_couple(ArgumentReader& reader, LbmSettings& settings);
+void read_monitor(ArgumentReader& reader, LbmSettings& settings);
+void read_output(ArgumentReader& reader, LbmSettings& settings);
+
+/// Face conditions in lattice units, from the values that variables have now. Faces that no line named are
+/// periodic along axes where LIGGGHTS is, and no-slip otherwise. Collective.
+lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+
+/// Does any face or force follow a variable?
+bool values_change(const LbmSettings& settings);
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,314 @@
+#include "liggghts_port.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix.h"
+#include "integrate.h"
+#include "lammps.h"
+#include "modify.h"
+#include "output.h"
+#include "signal_handling.h"
+#include "styles/early_stop.h"
+#include "styles/fix_hydrodynamic_force.h"
+#include "suffuse/common/error.h"
+#include "timer.h"
+#include "update.h"
+
+namespace suffuse::coupling {
+
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::FixHydrodynamicForce;
+using LAMMPS_NS::LAMMPS;
+
+static_assert(FixHydrodynamicForce::kHistoryValues == kHistoryLength);
+
+namespace {
+
+FixHydrodynamicForce* find_force_fix(LAMMPS* lmp) {
+  for (int i = 0; i < lmp->modify->nfix; ++i)
+    if (auto* fix = dynamic_cast<FixHydrodynamicForce*>(lmp->modify->fix[i])) return fix;
+  return nullptr;
+}
+
+}  // namespace
+
+LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
+  if (lmp->atom->superquadric_flag != 0)
+    throw_user_error({"lbm run", "atom_style", "superquadric", "be spheres", "write `atom_style granular`"});
+  for (int i = 0; i < lmp->modify->nfix; ++i)
+    if (std::string(lmp->modify->fix[i]->style).find("multisphere") == 0)
+      throw_user_error({"lbm run", "fix", lmp->modify->fix[i]->style,
+                        "not be defined: grains are single spheres",
+                        "use `fix nve/sphere` with single spheres"});
+  if (find_force_fix(lmp) == nullptr) {
+    std::string id = "hydrodynamic_force", group = "all", style = "hydrodynamic/force";
+    char* words[] = {id.data(), group.data(), style.data()};
+    lmp->modify->add_fix(3, words);
+  }
+  fix_ = find_force_fix(lmp);
+}
+
+GrainArrays LiggghtsPort::grains() {
+  const auto* atom = lmp_->atom;
+  fix_ = find_force_fix(lmp_);
+  fix_->update_ghost_velocities();
+  GrainArrays arrays;
+  all_grains_ = fix_->igroup == 0;
+  const int all = atom->nlocal + atom->nghost;
+  if (all_grains_) {
+    arrays.owned = atom->nlocal;
+    arrays.total = all;
+    if (all == 0) return arrays;
+    arrays.position = atom->x[0];
+    arrays.velocity = atom->v[0];
+    arrays.angular_velocity = atom->omega[0];
+    arrays.radius = atom->radius;
+    arrays.mass = atom->rmass;
+    arrays.id = atom->tag;
+    return arrays;
+  }
+  local_.clear();
+  for (int i = 0; i < all; ++i) {
+    if ((atom->mask[i] & fix_->groupbit) != 0) local_.push_back(i);
+    if (i + 1 == atom->nlocal) arrays.owned = static_cast<int>(local_.size());
+  }
+  arrays.total = static_cast<int>(local_.size());
+  position_.clear();
+  velocity_.clear();
+  spin_.clear();
+  radius_.clear();
+  mass_.clear();
+  id_.clear();
+  for (const int i : local_) {
+    position_.insert(position_.end(), atom->x[i], atom->x[i] + 3);
+    velocity_.insert(velocity_.end(), atom->v[i], atom->v[i] + 3);
+    spin_.insert(spin_.end(), atom->omega[i], atom->omega[i] + 3);
+    radius_.push_back(atom->radius[i]);
+    mass_.push_back(atom->rmass[i]);
+    id_.push_back(atom->tag[i]);
+  }
+  arrays.position = position_.data();
+  arrays.velocity = velocity_.data();
+  arrays.angular_velocity = spin_.data();
+  arrays.radius = radius_.data();
+  arrays.mass = mass_.data();
+  arrays.id = id_.data();
+  return arrays;
+}
+
+void LiggghtsPort::sum_over_copies(std::vector<double>& force, std::vector<double>& torque) {
+  if (all_grains_) {
+    fix_->sum_over_ghosts(force, torque);
+    return;
+  }
+  const auto all = 3 * static_cast<std::size_t>(lmp_->atom->nlocal + lmp_->atom->nghost);
+  std::vector<double> every_force(all, 0), every_torque(all, 0);
+  const auto spread = [&](std::vector<double>& part, std::vector<double>& whole, bool gather) {
+    for (std::size_t n = 0; n < local_.size(); ++n)
+      for (std::size_t a = 0; a < 3; ++a) {
+        double& other = whole[3 * static_cast<std::size_t>(local_[n]) + a];
+        (gather ? part[3 * n + a] : other) = gather ? other : part[3 * n + a];
+      }
+  };
+  spread(force, every_force, false);
+  spread(torque, every_torque, false);
+  fix_->sum_over_ghosts(every_force, every_torque);
+  spread(force, every_force, true);
+  spread(torque, every_torque, true);
+}
+
+GrainMemory LiggghtsPort::memory() {
+  if (lmp_->atom->nlocal == 0) return {};
+  if (all_grains_) return {fix_->load(), fix_->history()};
+  load_.clear();
+  history_.clear();
+  for (const int i : local_) {
+    if (i >= lmp_->atom->nlocal) break;
+    const double *load = fix_->load() + FixHydrodynamicForce::kLoadValues * i,
+                 *history = fix_->history() + kHistoryLength * i;
+    load_.insert(load_.end(), load, load + FixHydrodynamicForce::kLoadValues);
+    history_.insert(history_.end(), history, history + kHistoryLength);
+  }
+  return {load_.data(), history_.data()};
+}
+
+bool LiggghtsPort::anything_moves() const {
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (lmp_->modify->fix[i]->time_integrate != 0) return true;
+  return false;
+}
+
+bool LiggghtsPort::reads_loads(int substeps) {
+  return moves_ || lmp_->output->next <= lmp_->update->ntimestep + substeps;
+}
+
+double LiggghtsPort::time_step() const {
+  return lmp_->update->dt;
+}
+
+void LiggghtsPort::set_time_step(double step) {
+  lmp_->update->update_time();
+  lmp_->update->dt = step;
+  if (lmp_->update->integrate != nullptr) lmp_->update->integrate->reset_dt();
+  for (int i = 0; i < lmp_->modify->nfix; ++i) lmp_->modify->fix[i]->reset_dt();
+}
+
+void LiggghtsPort::set_virtual_density(double density) {
+  fix_->set_virtual_density(density);
+}
+
+/// Grains that nothing moves leave nothing to integrate: then only the clock of LIGGGHTS goes on, and its
+/// steps run where an output is due.
+void LiggghtsPort::advance(int substeps) {
+  if (!all_grains_ && !load_.empty()) {
+    for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
+      std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
+                  fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
+      std::copy_n(&history_[kHistoryLength * n], kHistoryLength,
+                  fix_->history() + kHistoryLength * local_[n]);
+    }
+    load_.clear();
+  }
+  if (!reads_loads(substeps)) {
+    lmp_->update->ntimestep += substeps;
+    return;
+  }
+  fix_->loads_changed();
+  lmp_->update->integrate->run(substeps);
+}
+
+void LiggghtsPort::begin(std::int64_t steps) {
+  auto* update = lmp_->update;
+  if (update->ntimestep + steps > MAXBIGINT || steps > MAXSMALLINT)
+    throw_user_error({"lbm run", "time", fmt::format("{} DEM steps", steps),
+                      fmt::format("be at most {} DEM steps", MAXSMALLINT), "split it in several `lbm run`"});
+  moves_ = anything_moves();
+  update->nsteps = static_cast<int>(steps);
+  update->firststep = update->beginstep = update->ntimestep;
+  update->laststep = update->endstep = update->ntimestep + steps;
+  update->whichflag = 1;
+  EarlyStop::requested = false;
+  lmp_->init();
+  update->integrate->setup();
+  lmp_->timer->init();
+  const auto* domain = lmp_->domain;
+  std::copy_n(domain->boxlo, 3, box_.begin());
+  std::copy_n(domain->boxhi, 3, box_.begin() + 3);
+  running_ = true;
+}
+
+void LiggghtsPort::end_after(int substeps) {
+  auto* update = lmp_->update;
+  auto* output = lmp_->output;
+  update->laststep = update->endstep = update->ntimestep + substeps;
+  output->next_thermo = std::min(output->next_thermo, update->laststep);
+  output->next = std::min(output->next, update->laststep);
+  lmp_->modify->addstep_compute(update->laststep);
+}
+
+void LiggghtsPort::end() {
+  if (!running_) return;
+  running_ = false;
+  auto* update = lmp_->update;
+  update->integrate->cleanup();
+  update->whichflag = 0;
+  update->firststep = update->laststep = 0;
+  update->beginstep = update->endstep = 0;
+  if (EarlyStop::requested) LAMMPS_NS::SignalHandler::request_quit = false;
+}
+
+bool LiggghtsPort::stop_requested() const {
+  int mine = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0, any = 0;
+  MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp_->world);
+  return any != 0;
+}
+
+void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {
+  const auto* domain = lmp_->domain;
+  if (domain->triclinic != 0)
+    throw_user_error({"lbm run", "box", "triclinic", "be orthogonal", "use a `region ... block`"});
+  for (int f = 0; f < lbm::kFaces; ++f) {
+    const int axis = f / 2;
+    const std::string name = lbm::name_of(static_cast<lbm::Face>(f));
+    const bool fluid = faces[static_cast<std::size_t>(f)].kind == lbm::FaceKind::periodic;
+    if (fluid != (domain->periodicity[axis] != 0))
+      throw_user_error({"lbm boundary", name, lbm::name_of(faces[static_cast<std::size_t>(f)].kind),
+                        fmt::format("agree with LIGGGHTS's `boundary`, which is {}periodic along {}",
+                                    fluid ? "not " : "", "xyz"[axis]),
+                        fluid ? "write `boundary ... p` for this axis, or give the face another kind"
+                              : "write `boundary ... f` for this axis, or make both of its faces periodic"});
+    if (domain->boundary[axis][f % 2] > 1)
+      throw_user_error({"lbm run", "boundary", "shrink-wrapped", "be fixed (f) or periodic (p)",
+                        "write `boundary f f f`: the fluid's box does not move"});
+  }
+}
+
+void LiggghtsPort::check_unchanged() const {
+  const auto* domain = lmp_->domain;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box_[a] != domain->boxlo[a] || box_[a + 3] != domain->boxhi[a])
+      throw_user_error({"lbm run", "box", "deforming", "keep its size while there is a fluid",
+                        "unfix the servo or `fix deform` before, or end the fluid with `lbm clear`"});
+}
+
+Vec3 LiggghtsPort::box_low() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->boxlo);
+}
+
+Vec3 LiggghtsPort::box_size() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->prd);
+}
+
+lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
+                                               const lbm::Index3& cells) const {
+  const auto* comm = lmp_->comm;
+  const double* splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
+  std::array<std::vector<int>, 3> cuts;
+  for (int a = 0; a < 3; ++a) {
+    auto& planes = cuts[static_cast<std::size_t>(a)];
+    const auto n = cells[static_cast<std::size_t>(a)];
+    for (int i = 0; i <= comm->procgrid[a]; ++i) {
+      const double plane = lmp_->domain->boxlo[a] + splits[a][i] * lmp_->domain->prd[a];
+      planes.push_back(std::clamp(static_cast<int>(std::lround((plane - low[a]) / spacing)), 0, n));
+    }
+    planes.front() = 0;
+    planes.back() = n;
+  }
+  return lbm::Decomposition::from_cuts(lmp_->world, cuts, [comm](const lbm::Index3& place) {
+    return comm->grid2proc[place[0]][place[1]][place[2]];
+  });
+}
+
+LiggghtsPort::Summary LiggghtsPort::summary() const {
+  const auto* atom = lmp_->atom;
+  double sums[2] = {0, 0}, extremes[3] = {-1e300, -1e300, -1e300};
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & fix_->groupbit) == 0) continue;
+    const double r = atom->radius[i], volume = 4. / 3 * M_PI * r * r * r;
+    sums[0] += 1;
+    sums[1] += volume;
+    extremes[0] = std::max(extremes[0], -r);
+    extremes[1] = std::max(extremes[1], r);
+    extremes[2] = std::max(extremes[2], -atom->rmass[i] / volume);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, lmp_->world);
+  Summary summary;
+  summary.grains = static_cast<std::int64_t>(sums[0]);
+  if (summary.grains == 0) return summary;
+  summary.solid_volume = sums[1];
+  summary.smallest_radius = -extremes[0];
+  summary.largest_radius = extremes[1];
+  summary.smallest_density = -extremes[2];
+  return summary;
+}
+
+}  // namespace suffuse::coupling

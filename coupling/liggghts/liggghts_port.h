@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "suffuse/coupling/particle_port.h"
+#include "suffuse/lbm/decomposition.h"
+#include "suffuse/lbm/fluid.h"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+class FixHydrodynamicForce;
+}  // namespace LAMMPS_NS
+
+namespace suffuse::coupling {
+
+/// The spheres of a LIGGGHTS instance. Between `begin` and `end` LIGGGHTS is inside one run: it is set up
+/// once, and `advance` goes on by some steps, with thermo output, dumps and fixes as in `run`.
+class LiggghtsPort final : public ParticlePort {
+ public:
+  /// Makes `fix hydrodynamic/force` for all grains if the script has none. A UserError if the grains are not
+  /// spheres. Collective.
+  explicit LiggghtsPort(LAMMPS_NS::LAMMPS* lmp);
+
+  GrainArrays grains() override;
+  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override;
+  GrainMemory memory() override;
+  bool reads_loads(int substeps) override;
+  double time_step() const override;
+  void advance(int substeps) override;
+
+  /// Sets LIGGGHTS up for a run of at most so many steps. Collective.
+  void begin(std::int64_t steps);
+  /// The next `advance` shall be the last: the thermo line and dumps of the end are written in it.
+  void end_after(int substeps);
+  void end();
+
+  /// Has a fix or a signal asked to end the run? The same on all ranks.
+  bool stop_requested() const;
+
+  /// Sets LIGGGHTS's time step, s.
+  void set_time_step(double step);
+  /// Cv rho_f, kg/m^3; see FixHydrodynamicForce.
+  void set_virtual_density(double density);
+
+  /// A UserError where the box is not the one that the fluid was made for, or grains cannot be mapped:
+  /// shrink-wrapped or periodic faces that disagree with the fluid's, bodies that are not spheres.
+  void check_box(const lbm::FaceConditions& faces) const;
+  /// A UserError if the box changed since `begin`.
+  void check_unchanged() const;
+
+  /// Low corner and size of LIGGGHTS's box, m.
+  Vec3 box_low() const;
+  Vec3 box_size() const;
+
+  /// LIGGGHTS's own sub-boxes snapped to cells of a box of fluid from `low`, so that grains and cells are on
+  /// the same rank.
+  lbm::Decomposition decomposition(const Vec3& low, double spacing, const lbm::Index3& cells) const;
+
+  /// Sum of radius cubed etc. over all grains of the fix's group. Collective.
+  struct Summary {
+    std::int64_t grains = 0;
+    double smallest_radius = 0, largest_radius = 0;  ///< m
+    double smallest_density = 0;                     ///< kg/m^3
+    double solid_volume = 0;                         ///< m^3
+  };
+  Summary summary() const;
+
+ private:
+  bool anything_moves() const;
+
+  LAMMPS_NS::LAMMPS* lmp_;
+  LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
+  bool running_ = false;
+  bool moves_ = false;
+  bool all_grains_ = true;  ///< the fix's group is `all`
+  std::array<double, 6> box_{};
+  std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<int> id_;
+};
+
+}  // namespace suffuse::coupling

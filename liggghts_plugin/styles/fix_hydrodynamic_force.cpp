@@ -1,0 +1,231 @@
+#include "fix_hydrodynamic_force.h"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "memory.h"
+#include "modify.h"
+#include "style_support.h"
+#include "suffuse/common/error.h"
+
+using namespace LAMMPS_NS;
+using suffuse::throw_user_error;
+
+namespace {
+// Places in a grain's history (particle_port.h): the acceleration over the last fluid step.
+constexpr int kAcceleration = 13;
+constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce::kHistoryValues;
+}  // namespace
+
+FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
+  suffuse::ArgumentReader reader("fix hydrodynamic/force", narg, arg, 3);
+  if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+  if (atom->radius_flag == 0 || atom->torque_flag == 0)
+    throw_user_error({"fix hydrodynamic/force", "atom_style", atom->atom_style, "be spheres",
+                      "write `atom_style granular`"});
+  for (int i = 0; i < modify->nfix; ++i)
+    if (std::string(modify->fix[i]->style) == style)
+      throw_user_error({"fix hydrodynamic/force", "fix", id,
+                        std::string("be the only one of its style (there is ") + modify->fix[i]->id + ")",
+                        "name one group that holds all grains in the fluid"});
+  peratom_flag = 1;
+  size_peratom_cols = kLoadValues;
+  peratom_freq = 1;
+  vector_flag = 1;
+  size_vector = kLoadValues;
+  global_freq = 1;
+  extvector = 1;
+  restart_peratom = 1;
+  create_attribute = 1;
+  comm_forward = comm_reverse = 6;
+  grow_arrays(atom->nmax);
+  atom->add_callback(0);
+  atom->add_callback(1);
+  for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
+}
+
+FixHydrodynamicForce::~FixHydrodynamicForce() {
+  atom->delete_callback(id, 0);
+  atom->delete_callback(id, 1);
+  memory->destroy(array_atom);
+  memory->destroy(history_);
+}
+
+int FixHydrodynamicForce::setmask() {
+  return FixConst::POST_FORCE;
+}
+
+/// The virtual mass divides the sum of all forces: whoever adds one after us would escape it.
+void FixHydrodynamicForce::init() {
+  if (virtual_density_ == 0) return;
+  for (int i = modify->find_fix(id) + 1; i < modify->nfix; ++i)
+    if ((modify->fmask[i] & FixConst::POST_FORCE) != 0)
+      throw_user_error({"fix hydrodynamic/force", "order",
+                        std::string("fix ") + modify->fix[i]->id + " after it",
+                        "be the last fix that adds forces, with lbm couple virtual_mass",
+                        "define it after the others, or leave it to `lbm run`"});
+}
+
+void FixHydrodynamicForce::setup(int flag) {
+  post_force(flag);
+}
+
+double FixHydrodynamicForce::virtual_mass(int i) const {
+  const double r = atom->radius[i];
+  return virtual_density_ * 4. / 3 * std::numbers::pi * r * r * r;
+}
+
+/// Load and, with a virtual mass, its share of the last acceleration.
+void FixHydrodynamicForce::contribution(int i, double* added) const {
+  const double mass = virtual_density_ > 0 ? virtual_mass(i) : 0;
+  for (int a = 0; a < 3; ++a)
+    added[a] = array_atom[i][a] + (mass > 0 ? mass * history_[i][kAcceleration + a] : 0);
+}
+
+void FixHydrodynamicForce::post_force(int) {
+  const int owned = atom->nlocal;
+  applied_.assign(3 * static_cast<std::size_t>(owned), 0);
+  applied_torque_.assign(applied_.size(), 0);
+  for (int i = 0; i < owned; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    double* ours = &applied_[3 * static_cast<std::size_t>(i)];
+    double* turning = &applied_torque_[3 * static_cast<std::size_t>(i)];
+    contribution(i, ours);
+    const double share = virtual_density_ > 0 ? atom->rmass[i] / (atom->rmass[i] + virtual_mass(i)) : 1;
+    for (int a = 0; a < 3; ++a) {
+      atom->f[i][a] = share * (atom->f[i][a] + ours[a]);
+      atom->torque[i][a] += turning[a] = array_atom[i][3 + a];
+    }
+  }
+}
+
+void FixHydrodynamicForce::loads_changed() {
+  const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size() / 3));
+  for (int i = 0; i < owned; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    double* ours = &applied_[3 * static_cast<std::size_t>(i)];
+    double* turning = &applied_torque_[3 * static_cast<std::size_t>(i)];
+    double now[3];
+    contribution(i, now);
+    const double share = virtual_density_ > 0 ? atom->rmass[i] / (atom->rmass[i] + virtual_mass(i)) : 1;
+    for (int a = 0; a < 3; ++a) {
+      atom->f[i][a] += share * (now[a] - ours[a]);
+      atom->torque[i][a] += array_atom[i][3 + a] - turning[a];
+      ours[a] = now[a];
+      turning[a] = array_atom[i][3 + a];
+    }
+  }
+}
+
+double* FixHydrodynamicForce::load() {
+  return array_atom[0];
+}
+
+double* FixHydrodynamicForce::history() {
+  return history_[0];
+}
+
+/// Sum of the forces (1 to 3) and torques (4 to 6) on the grains of the group.
+double FixHydrodynamicForce::compute_vector(int n) {
+  double mine = 0, all = 0;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit) != 0) mine += array_atom[i][n];
+  MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, world);
+  return all;
+}
+
+double FixHydrodynamicForce::memory_usage() {
+  return static_cast<double>(atom->nmax) * (kValues + 6) * sizeof(double);
+}
+
+void FixHydrodynamicForce::grow_arrays(int nmax) {
+  memory->grow(array_atom, nmax, static_cast<int>(kLoadValues), "hydrodynamic/force:load");
+  memory->grow(history_, nmax, static_cast<int>(kHistoryValues), "hydrodynamic/force:history");
+}
+
+void FixHydrodynamicForce::copy_arrays(int from, int to, int) {
+  std::copy_n(array_atom[from], kLoadValues, array_atom[to]);
+  std::copy_n(history_[from], kHistoryValues, history_[to]);
+}
+
+void FixHydrodynamicForce::set_arrays(int i) {
+  std::fill_n(array_atom[i], kLoadValues, 0.);
+  std::fill_n(history_[i], kHistoryValues, 0.);
+}
+
+int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
+  std::copy_n(array_atom[i], kLoadValues, buffer);
+  std::copy_n(history_[i], kHistoryValues, buffer + kLoadValues);
+  return kValues;
+}
+
+int FixHydrodynamicForce::unpack_exchange(int i, double* buffer) {
+  std::copy_n(buffer, kLoadValues, array_atom[i]);
+  std::copy_n(buffer + kLoadValues, kHistoryValues, history_[i]);
+  return kValues;
+}
+
+int FixHydrodynamicForce::pack_restart(int i, double* buffer) {
+  buffer[0] = kValues + 1;
+  return 1 + pack_exchange(i, buffer + 1);
+}
+
+void FixHydrodynamicForce::unpack_restart(int i, int nth) {
+  double* values = atom->extra[i];
+  for (int n = 0; n < nth; ++n) values += static_cast<int>(*values);
+  unpack_exchange(i, values + 1);
+}
+
+int FixHydrodynamicForce::size_restart(int) {
+  return kValues + 1;
+}
+
+int FixHydrodynamicForce::maxsize_restart() {
+  return kValues + 1;
+}
+
+int FixHydrodynamicForce::pack_comm(int n, int* list, double* buffer, int, int*) {
+  for (int k = 0; k < n; ++k) {
+    std::copy_n(atom->v[list[k]], 3, buffer + 6 * k);
+    std::copy_n(atom->omega[list[k]], 3, buffer + 6 * k + 3);
+  }
+  return 6;
+}
+
+void FixHydrodynamicForce::unpack_comm(int n, int first, double* buffer) {
+  for (int k = 0; k < n; ++k) {
+    std::copy_n(buffer + 6 * k, 3, atom->v[first + k]);
+    std::copy_n(buffer + 6 * k + 3, 3, atom->omega[first + k]);
+  }
+}
+
+int FixHydrodynamicForce::pack_reverse_comm(int n, int first, double* buffer) {
+  for (int k = 0; k < n; ++k) {
+    std::copy_n(sum_force_->data() + 3 * (first + k), 3, buffer + 6 * k);
+    std::copy_n(sum_torque_->data() + 3 * (first + k), 3, buffer + 6 * k + 3);
+  }
+  return 6;
+}
+
+void FixHydrodynamicForce::unpack_reverse_comm(int n, int* list, double* buffer) {
+  for (int k = 0; k < n; ++k)
+    for (int a = 0; a < 3; ++a) {
+      (*sum_force_)[static_cast<std::size_t>(3 * list[k] + a)] += buffer[6 * k + a];
+      (*sum_torque_)[static_cast<std::size_t>(3 * list[k] + a)] += buffer[6 * k + 3 + a];
+    }
+}
+
+void FixHydrodynamicForce::update_ghost_velocities() {
+  comm->forward_comm_fix(this);
+}
+
+void FixHydrodynamicForce::sum_over_ghosts(std::vector<double>& forces, std::vector<double>& torques) {
+  sum_force_ = &forces;
+  sum_torque_ = &torques;
+  comm->reverse_comm_fix(this);
+}
