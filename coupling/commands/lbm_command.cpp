@@ -143,17 +143,6 @@ void LbmCommand::restart(ArgumentReader& reader) {
   }
 }
 
-/// A sphere's virtual mass is half of the fluid that it displaces. Grains much heavier than the fluid are
-/// stable without, and then momentum is conserved to round-off.
-double LbmCommand::virtual_mass() const {
-  if (settings_.virtual_mass) return *settings_.virtual_mass;
-  constexpr double lightest_stable = 1.5;
-  const auto grains = port_->summary();
-  return grains.grains > 0 && grains.smallest_density < lightest_stable * settings_.coupled.units.density
-             ? 0.5
-             : 0.;
-}
-
 void LbmCommand::build() {
   const lbm::Units units(settings_.coupled.units);
   const FluidBox box = fluid_box(lmp_, *port_, settings_.region);
@@ -207,7 +196,6 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
   }
-  port_->set_virtual_density(virtual_mass() * settings_.coupled.units.density);
   LbmRun(lmp_, settings_, *port_, *simulation_).run(request);
 }
 

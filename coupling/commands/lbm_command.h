@@ -32,7 +32,6 @@ class LbmCommand {
   void require_lattice(const std::string& who) const;
   void build();
   int choose_substeps();
-  double virtual_mass() const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   LbmSettings settings_;

@@ -45,7 +45,7 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
   coupled.solids = standard.solids;
   coupled.effects = standard.effects;
   coupled.average_force = standard.average_force;
-  settings.virtual_mass.reset();
+  coupled.virtual_mass = standard.virtual_mass;
   if (preset == Preset::standard) return;
   // Thesis sections 3.3 and 3.4, Appendix C: one relaxation time, SC1 with Noble and Torczynski's weighting,
   // 5 x 5 x 5 sub-cells, no lubrication.
@@ -57,7 +57,7 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
   coupled.solids.subcells = 5;
   coupled.effects.turbulence = Switch::off;
   coupled.effects.lubrication = Switch::off;
-  settings.virtual_mass = 0;
+  coupled.virtual_mass = 0;
 }
 
 void read_fluid(ArgumentReader& reader, LbmSettings& settings) {
@@ -250,7 +250,7 @@ void read_effect(ArgumentReader& reader, LbmSettings& settings) {
 void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   int substeps = settings.coupled.substeps;
   bool average = settings.coupled.average_force;
-  std::optional<double> virtual_mass = settings.virtual_mass;
+  std::optional<double> virtual_mass = settings.coupled.virtual_mass;
   double largest_mach = settings.largest_mach;
   while (!reader.done()) {
     if (reader.accept("substeps")) {
@@ -274,7 +274,7 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   }
   settings.coupled.substeps = substeps;
   settings.coupled.average_force = average;
-  settings.virtual_mass = virtual_mass;
+  settings.coupled.virtual_mass = virtual_mass;
   settings.largest_mach = largest_mach;
 }
 

@@ -47,9 +47,8 @@ struct LbmSettings {
   std::string region;  ///< of the fluid; empty: LIGGGHTS's box
   std::array<ScriptFace, lbm::kFaces> faces;
   ScriptVector gravity, pressure_gradient;
-  std::optional<double> virtual_mass;  ///< Cv; none: as the grains' densities need
-  double smagorinsky = 0.1;            ///< constant of the eddy viscosity where turbulence is on
-  double largest_mach = 0.3;           ///< the run stops above
+  double smagorinsky = 0.1;   ///< constant of the eddy viscosity where turbulence is on
+  double largest_mach = 0.3;  ///< the run stops above
   std::vector<MonitorRequest> monitors;
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;

@@ -161,10 +161,6 @@ void LiggghtsPort::set_time_step(double step) {
   for (int i = 0; i < lmp_->modify->nfix; ++i) lmp_->modify->fix[i]->reset_dt();
 }
 
-void LiggghtsPort::set_virtual_density(double density) {
-  fix_->set_virtual_density(density);
-}
-
 /// Grains that nothing moves leave nothing to integrate: then only the clock of LIGGGHTS goes on, and its
 /// steps run where an output is due.
 void LiggghtsPort::advance(int substeps) {

@@ -41,8 +41,6 @@ class LiggghtsPort final : public ParticlePort {
 
   /// Sets LIGGGHTS's time step, s.
   void set_time_step(double step);
-  /// Cv rho_f, kg/m^3; see FixHydrodynamicForce.
-  void set_virtual_density(double density);
 
   /// A UserError where the box is not the one that the fluid was made for, or grains cannot be mapped:
   /// shrink-wrapped or periodic faces that disagree with the fluid's, bodies that are not spheres.

@@ -7,6 +7,7 @@
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/coupling/virtual_mass.h"
 
 namespace suffuse::coupling {
 
@@ -111,8 +112,11 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   rule.fluid_density = units_.density();
   rule.time_step = units_.time_step();
   if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
+  rule.inner_depth = kInnerDepth * units_.spacing();
   rule.average = settings_.average_force;
   rule.rotation = settings_.effects.rotation != Switch::off;
+  const VirtualMassRule virtual_rule{settings_.virtual_mass, units_.density(),
+                                     lbm::viscosity_of(units_.relaxation_time()), units_.spacing()};
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
     const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};
@@ -124,15 +128,34 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const GrainHistory before{h[history::known] != 0,
                               past(history::velocity),
                               past(history::angular_velocity),
-                              {past(history::exchange_force), past(history::exchange_torque)}};
+                              {past(history::exchange_force), past(history::exchange_torque)},
+                              {past(history::inner_velocity), past(history::inner_spin),
+                               past(history::outer_velocity), past(history::outer_spin)}};
+    const auto rate = [&](double fraction) {
+      return lbm::following_rate(settings_.solids.cells, fraction,
+                                 spheres_[static_cast<std::size_t>(n)].coefficient, units_.relaxation_time());
+    };
+    rule.inner_rate = rate(1);
+    rule.outer_rate = rate(0.5);
+    const HeldFluid held = held_fluid(now, before, rule);
     const Load load = hydrodynamic_load(exchange, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
-    if (before.known) keep(history::acceleration, (now.velocity - before.velocity) / rule.time_step);
+    if (before.known) {
+      keep(history::acceleration, (now.velocity - before.velocity) / rule.time_step);
+      keep(history::angular_acceleration, (now.angular_velocity - before.angular_velocity) / rule.time_step);
+    }
+    const VirtualInertia added = virtual_inertia(virtual_rule, now.radius, grains.mass[n]);
+    h[history::virtual_mass] = added.mass;
+    h[history::virtual_moment] = added.moment;
     keep(history::velocity, now.velocity);
     keep(history::angular_velocity, now.angular_velocity);
     keep(history::exchange_force, exchange.force);
     keep(history::exchange_torque, exchange.torque);
+    keep(history::inner_velocity, held.inner_velocity);
+    keep(history::inner_spin, held.inner_spin);
+    keep(history::outer_velocity, held.outer_velocity);
+    keep(history::outer_spin, held.outer_spin);
     h[history::known] = 1;
   }
   loads_are_current_ = true;

@@ -44,6 +44,11 @@ void SolidMapping::place(const LatticeSphere& sphere, MappedSphere& mapped) cons
   bool outside = false;
   for (int a = 0; a < 3; ++a) {
     const auto at = static_cast<std::size_t>(a);
+    if (!std::isfinite(sphere.position[a])) {  // a scene that has blown up is told elsewhere
+      begin[a] = end[a] = 0;
+      outside = true;
+      continue;
+    }
     const double first = std::ceil(sphere.position[a] - reach - 0.5) - box_.lo[at];
     const double last = std::floor(sphere.position[a] + reach - 0.5) - box_.lo[at];
     begin[a] = static_cast<int>(std::clamp(first, 0., static_cast<double>(box_.extent(a))));

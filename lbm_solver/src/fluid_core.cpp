@@ -40,14 +40,14 @@ WeightingTerms<T> weighting_terms(const PartialSolidSettings& settings, double r
   const T t = static_cast<T>(relaxation_time - 0.5);
   switch (settings.weighting) {
     case SolidWeighting::fraction:
-      return {1, 0, 0, 1, 1};
+      return {1, 0, 0, 1};
     case SolidWeighting::noble_torczynski:
-      return {t, 1, 0, t, 1};
+      return {t, 1, 0, t};
     case SolidWeighting::viscosity_independent:
       break;
   }
   const T strength = t * static_cast<T>(settings.own_coefficients ? 1 : settings.coefficient);
-  return {strength, 1, strength, 0, 0};
+  return {strength, 1, strength, static_cast<T>(kLeastOpenShare)};
 }
 
 template <class T>

@@ -56,7 +56,18 @@ double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell
       break;
   }
   const double strength = settings.own_coefficients ? cell.strength : settings.coefficient * cell.strength;
-  return strength * t / (1 - fraction + strength * t);
+  return strength * t / (1 - fraction + kLeastOpenShare * std::max(1., cell.fraction) + strength * t);
+}
+
+double following_rate(const PartialSolidSettings& settings, double fraction, double coefficient,
+                      double relaxation_time) {
+  PartialSolidSettings same = settings;
+  same.own_coefficients = false;
+  same.coefficient = coefficient;
+  const double weight = solid_weight(same, {fraction, fraction, Vec3::Zero()}, relaxation_time);
+  const bool overshoots =
+      settings.solid_operator == SolidOperator::sc3 || settings.solid_operator == SolidOperator::force;
+  return overshoots ? 2 * weight : weight;
 }
 
 }  // namespace suffuse::lbm

@@ -17,8 +17,8 @@ using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 
 namespace {
-// Places in a grain's history (particle_port.h): the acceleration over the last fluid step.
-constexpr int kAcceleration = 13;
+// Places in a grain's history, as in coupling's particle_port.h.
+constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20;
 constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce::kHistoryValues;
 }  // namespace
 
@@ -57,68 +57,64 @@ FixHydrodynamicForce::~FixHydrodynamicForce() {
 }
 
 int FixHydrodynamicForce::setmask() {
-  return FixConst::POST_FORCE;
-}
-
-/// The virtual mass divides the sum of all forces: whoever adds one after us would escape it.
-void FixHydrodynamicForce::init() {
-  if (virtual_density_ == 0) return;
-  for (int i = modify->find_fix(id) + 1; i < modify->nfix; ++i)
-    if ((modify->fmask[i] & FixConst::POST_FORCE) != 0)
-      throw_user_error({"fix hydrodynamic/force", "order",
-                        std::string("fix ") + modify->fix[i]->id + " after it",
-                        "be the last fix that adds forces, with lbm couple virtual_mass",
-                        "define it after the others, or leave it to `lbm run`"});
+  return FixConst::POST_FORCE | FixConst::PRE_FINAL_INTEGRATE;
 }
 
 void FixHydrodynamicForce::setup(int flag) {
   post_force(flag);
+  pre_final_integrate();
 }
 
-double FixHydrodynamicForce::virtual_mass(int i) const {
-  const double r = atom->radius[i];
-  return virtual_density_ * 4. / 3 * std::numbers::pi * r * r * r;
-}
-
-/// Load and, with a virtual mass, its share of the last acceleration.
-void FixHydrodynamicForce::contribution(int i, double* added) const {
-  const double mass = virtual_density_ > 0 ? virtual_mass(i) : 0;
-  for (int a = 0; a < 3; ++a)
-    added[a] = array_atom[i][a] + (mass > 0 ? mass * history_[i][kAcceleration + a] : 0);
+FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
+  const double* history = history_[i];
+  const double mass = history[kVirtualMass], moment = history[kVirtualMoment];
+  Addition ours;
+  for (int a = 0; a < 3; ++a) {
+    ours.force[a] = array_atom[i][a] + mass * history[kAcceleration + a];
+    ours.torque[a] = array_atom[i][3 + a] + moment * history[kAngularAcceleration + a];
+  }
+  const double radius = atom->radius[i], own = atom->rmass[i], own_moment = 0.4 * own * radius * radius;
+  ours.force_share = own / (own + mass);
+  ours.torque_share = own_moment / (own_moment + moment);
+  return ours;
 }
 
 void FixHydrodynamicForce::post_force(int) {
-  const int owned = atom->nlocal;
-  applied_.assign(3 * static_cast<std::size_t>(owned), 0);
-  applied_torque_.assign(applied_.size(), 0);
-  for (int i = 0; i < owned; ++i) {
+  applied_.resize(static_cast<std::size_t>(atom->nlocal));
+  for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
-    double* ours = &applied_[3 * static_cast<std::size_t>(i)];
-    double* turning = &applied_torque_[3 * static_cast<std::size_t>(i)];
-    contribution(i, ours);
-    const double share = virtual_density_ > 0 ? atom->rmass[i] / (atom->rmass[i] + virtual_mass(i)) : 1;
+    const Addition& ours = applied_[static_cast<std::size_t>(i)] = addition(i);
     for (int a = 0; a < 3; ++a) {
-      atom->f[i][a] = share * (atom->f[i][a] + ours[a]);
-      atom->torque[i][a] += turning[a] = array_atom[i][3 + a];
+      atom->f[i][a] += ours.force[a];
+      atom->torque[i][a] += ours.torque[a];
+    }
+  }
+}
+
+/// After every fix that adds forces.
+void FixHydrodynamicForce::pre_final_integrate() {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    const Addition& ours = applied_[static_cast<std::size_t>(i)];
+    for (int a = 0; a < 3; ++a) {
+      atom->f[i][a] *= ours.force_share;
+      atom->torque[i][a] *= ours.torque_share;
     }
   }
 }
 
 void FixHydrodynamicForce::loads_changed() {
-  const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size() / 3));
+  const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size()));
   for (int i = 0; i < owned; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
-    double* ours = &applied_[3 * static_cast<std::size_t>(i)];
-    double* turning = &applied_torque_[3 * static_cast<std::size_t>(i)];
-    double now[3];
-    contribution(i, now);
-    const double share = virtual_density_ > 0 ? atom->rmass[i] / (atom->rmass[i] + virtual_mass(i)) : 1;
+    Addition& ours = applied_[static_cast<std::size_t>(i)];
+    const Addition now = addition(i);
     for (int a = 0; a < 3; ++a) {
-      atom->f[i][a] += share * (now[a] - ours[a]);
-      atom->torque[i][a] += array_atom[i][3 + a] - turning[a];
-      ours[a] = now[a];
-      turning[a] = array_atom[i][3 + a];
+      double &f = atom->f[i][a], &torque = atom->torque[i][a];
+      f = now.force_share * (f / ours.force_share - ours.force[a] + now.force[a]);
+      torque = now.torque_share * (torque / ours.torque_share - ours.torque[a] + now.torque[a]);
     }
+    ours = now;
   }
 }
 
@@ -140,7 +136,7 @@ double FixHydrodynamicForce::compute_vector(int n) {
 }
 
 double FixHydrodynamicForce::memory_usage() {
-  return static_cast<double>(atom->nmax) * (kValues + 6) * sizeof(double);
+  return static_cast<double>(atom->nmax) * (kValues + 8) * sizeof(double);
 }
 
 void FixHydrodynamicForce::grow_arrays(int nmax) {

@@ -23,15 +23,15 @@ namespace LAMMPS_NS {
 class FixHydrodynamicForce : public Fix {
  public:
   static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
-  static constexpr int kHistoryValues = 16;  ///< the coupling's memory of a grain (particle_port.h)
+  static constexpr int kHistoryValues = 33;  ///< the coupling's memory of a grain (particle_port.h)
 
   FixHydrodynamicForce(LAMMPS* lmp, int narg, char** arg);
   ~FixHydrodynamicForce() override;
 
   int setmask() override;
-  void init() override;
   void setup(int) override;
   void post_force(int) override;
+  void pre_final_integrate() override;
   double compute_vector(int n) override;
   double memory_usage() override;
 
@@ -57,11 +57,6 @@ class FixHydrodynamicForce : public Fix {
   /// Brings the forces that the next half step of integration starts with up to date with the loads.
   void loads_changed();
 
-  /// Mass of fluid (kg per m^3 of grain) that is added to both sides of the equations of motion, moving with
-  /// the acceleration of the last fluid step: explicit coupling of grains lighter than about the fluid would
-  /// diverge without (thesis eq 3.38 has none; docs/decisions/virtual-mass.md). 0: none.
-  void set_virtual_density(double density) { virtual_density_ = density; }
-
   /// Copies velocities and angular velocities of owned grains to their ghosts. LIGGGHTS leaves the ghosts'
   /// half a step behind. Collective.
   void update_ghost_velocities();
@@ -71,13 +66,16 @@ class FixHydrodynamicForce : public Fix {
   void sum_over_ghosts(std::vector<double>& forces, std::vector<double>& torques);
 
  private:
-  double virtual_mass(int i) const;
-  void contribution(int i, double* added) const;
+  /// What this fix adds to a grain's force and torque: the load, and the virtual inertia times the last
+  /// acceleration. The sum of all forces is then multiplied by m/(m + m_virtual), and so with the torque.
+  struct Addition {
+    double force[3], torque[3];
+    double force_share, torque_share;
+  };
+  Addition addition(int i) const;
 
   double** history_ = nullptr;
-  std::vector<double> applied_;  // force part of what atom->f holds of ours, 3 a grain
-  std::vector<double> applied_torque_;
-  double virtual_density_ = 0;
+  std::vector<Addition> applied_;             // what atom->f and atom->torque hold of ours
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts
   std::vector<double>* sum_torque_ = nullptr;
 };

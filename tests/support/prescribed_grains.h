@@ -1,5 +1,8 @@
 #pragma once
 
+#include <mpi.h>
+
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -84,12 +87,15 @@ class PrescribedGrains final : public ParticlePort {
       const double mass = g.density * sphere_volume(g.radius), inertia = 0.4 * mass * g.radius * g.radius;
       const double time = substeps * step_;
       if (free) {
-        const double added = virtual_density * sphere_volume(g.radius);
-        const Vec3 before = Eigen::Map<const Vec3>(&history_[kHistoryLength * n + history::acceleration]);
+        const double* past = &history_[kHistoryLength * n];
+        const double added = past[history::virtual_mass], added_moment = past[history::virtual_moment];
+        const Vec3 before = Eigen::Map<const Vec3>(past + history::acceleration),
+                   turning_before = Eigen::Map<const Vec3>(past + history::angular_acceleration);
         const Vec3 acceleration = (force_on(n) + mass * gravity + added * before) / (mass + added);
+        const Vec3 turning = (torque_on(n) + added_moment * turning_before) / (inertia + added_moment);
         g.position += time * (g.velocity + 0.5 * time * acceleration);
         g.velocity += time * acceleration;
-        g.angular_velocity += time / inertia * torque_on(n);
+        g.angular_velocity += time * turning;
       } else {
         g.position += time * g.velocity;
       }
@@ -101,6 +107,7 @@ class PrescribedGrains final : public ParticlePort {
 
   Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n); }
   Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n + 3); }
+  double virtual_mass_of(std::size_t n) const { return history_[kHistoryLength * n + history::virtual_mass]; }
 
  private:
   void add(std::size_t n, const Vec3& position) {
@@ -129,7 +136,6 @@ class PrescribedGrains final : public ParticlePort {
   bool mobile = false;  ///< moved at their velocities
   bool free = false;    ///< with `mobile`: driven by the fluid and gravity
   Vec3 gravity = Vec3::Zero();
-  double virtual_density = 0;  ///< Cv rho_f: as FixHydrodynamicForce
 };
 
 }  // namespace suffuse::coupling

@@ -9,12 +9,10 @@
 namespace suffuse::lbm {
 
 /// SolidWeighting as one formula, with S the strength and eps the fraction of a cell:
-///   B = S numerator / ((open (1 - eps) + strength S + constant) (1 or, if they shrink, the larger of 1 and
-///   eps)).
+///   B = S numerator / (open max(0, 1 - eps) + strength S + constant max(1, eps)).
 template <class T>
 struct WeightingTerms {
   T numerator, open, strength, constant;
-  T shrink;  ///< 1: what overlaps shrinks here; 0: the formula does it by itself
 };
 
 /// What one sweep of a collide-and-stream kernel reads and writes: plain data, in lattice units.

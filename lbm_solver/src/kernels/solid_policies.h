@@ -72,9 +72,9 @@ template <class T>
   const Pack<T> strength = load_floats<T>(call.strength + cells);
   const Pack<T> clear = T(1) - fraction;
   const Pack<T> open = clear > T(0) ? clear : Pack<T>{};
-  const Pack<T> whole = terms.open * open + terms.strength * strength + terms.constant;
-  const Pack<T> excess = clear < T(0) ? -clear : Pack<T>{};  // of fractions over one
-  const Pack<T> factor = terms.numerator / (whole + terms.shrink * (whole * excess));
+  const Pack<T> covered = clear < T(0) ? fraction : Pack<T>{} + T(1);  // more than one where solids overlap
+  const Pack<T> factor =
+      terms.numerator / (terms.open * open + terms.strength * strength + terms.constant * covered);
   weight = strength * factor;
   for (int a = 0; a < 3; ++a) weight_velocity[a] = factor * load_floats<T>(call.solid_momentum[a] + cells);
 }

@@ -29,9 +29,14 @@ namespace history {
 inline constexpr int velocity = 0, angular_velocity = 3;       ///< m/s, rad/s
 inline constexpr int exchange_force = 6, exchange_torque = 9;  ///< N, N m
 inline constexpr int known = 12;                               ///< 1 once there was such a step
-inline constexpr int acceleration = 13;                        ///< over the fluid step before, m/s^2
+/// Over the fluid step before, m/s^2 and rad/s^2; and the virtual inertia that is to move with it on both
+/// sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever integrates applies these.
+inline constexpr int acceleration = 13, angular_acceleration = 16;
+inline constexpr int virtual_mass = 19, virtual_moment = 20;
+inline constexpr int inner_velocity = 21, inner_spin = 24, outer_velocity = 27,
+                     outer_spin = 30;  ///< HeldFluid
 }  // namespace history
-inline constexpr int kHistoryLength = 16;
+inline constexpr int kHistoryLength = 33;
 
 /// What the coupling asks of a discrete-element code.
 class ParticlePort {

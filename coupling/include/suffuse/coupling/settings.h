@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "suffuse/common/linear_algebra.h"
@@ -35,7 +36,7 @@ struct CoupledSettings {
   EffectSettings effects;
   int substeps = 0;                       ///< DEM steps a fluid step; 0: from the DEM time step, as it is
   bool average_force = false;             ///< loads are the mean of the last two fluid steps'
-  double virtual_mass = 0;                ///< Cv: Cv rho_f V on both sides of a grain's equation of motion
+  std::optional<double> virtual_mass;     ///< VirtualMassRule::coefficient
   Vec3 gravity = Vec3::Zero();            ///< m/s^2; pressures are those in excess of the hydrostatic one
   Vec3 pressure_gradient = Vec3::Zero();  ///< Pa/m along the flow
 };

@@ -39,6 +39,12 @@ struct PartialSolidCell {
 double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell& cell,
                     double relaxation_time);
 
+/// By which share of its distance from the solid's velocity the momentum of a cell changes in one step: B for
+/// SC1 and SC2, 2B for SC3 and `force` (above one it overshoots). The coefficient is used by the
+/// viscosity-independent weighting only.
+double following_rate(const PartialSolidSettings& settings, double fraction, double coefficient,
+                      double relaxation_time);
+
 /// The arrays of one rank that solids are written to and the exchange is read from. All pointers are to inner
 /// cell (0,0,0) of the sub-box; cell (x,y,z) lies at x + row_pitch*y + plane_pitch*z. At least eight values
 /// past the last cell of a row may be read, and written with what they hold.

@@ -18,7 +18,12 @@ enum class SolidOperator {
 enum class SolidWeighting {
   fraction,               ///< B = eps
   noble_torczynski,       ///< B = eps t / ((1 - eps) + t) (thesis eq 3.34)
-  viscosity_independent,  ///< B = k eps t / ((1 - eps) + k eps t): drag/viscosity depends on eps alone
+  viscosity_independent,  ///< B = k eps t / ((1 - eps) + r + k eps t): drag/viscosity depends on eps alone
 };
+
+/// r of the viscosity-independent weighting: what a whole cell keeps open. With r = 0 the velocity in a whole
+/// cell becomes the solid's at half step, and its momentum overshoots by as much as it was away: inside a
+/// grain it would swing to and fro for ever, and with it the force on a grain that is accelerated.
+inline constexpr double kLeastOpenShare = 0.05;
 
 }  // namespace suffuse::lbm
