@@ -329,12 +329,9 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   summary.largest_density = extremes.density;
   summary.kinetic_energy = sums.energy;
   summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
-  double box = 1;
-  for (int a = 0; a < 3; ++a) {
-    const double extent = extremes.high[a] + extremes.minus_low[a];
-    box *= std::min(extent, lmp_->domain->prd[a]);
-  }
-  summary.packing = sums.volume / box;
+  for (int a = 0; a < 3; ++a)
+    summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  summary.packing = sums.volume / summary.extent.prod();
   return summary;
 }
 

@@ -75,9 +75,10 @@ class LiggghtsPort final : public ParticlePort {
     double sauter_diameter = 0;                        ///< sum d^3/sum d^2, m
     double smallest_density = 0, largest_density = 0;  ///< kg/m^3
     double solid_volume = 0;                           ///< m^3
-    double packing = 0;         ///< solid volume over that of the box around all grains
-    double kinetic_energy = 0;  ///< J
-    Vec3 load = Vec3::Zero();   ///< sum of the fluid's forces, N
+    Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
+    double packing = 0;                                ///< solid volume over that of this box
+    double kinetic_energy = 0;                         ///< J
+    Vec3 load = Vec3::Zero();                          ///< sum of the fluid's forces, N
   };
   Summary summary() const;
 
