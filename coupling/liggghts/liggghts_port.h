@@ -67,6 +67,7 @@ class LiggghtsPort final : public ParticlePort {
 
  private:
   bool anything_moves() const;
+  void keep_memory();
 
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
@@ -75,7 +76,7 @@ class LiggghtsPort final : public ParticlePort {
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
   std::vector<int> id_;
 };
 
