@@ -21,13 +21,14 @@ constexpr double kLeastPores = 0.01;
 
 double CoefficientLaw::operator()(double diameter, double crowding) const {
   const double x = std::min(crowding, kLargestCrowding);
-  return std::min(constant + (single + x * (crowded + x * dense)) / diameter, kLargestCoefficient);
+  const double k = constant + (single + crowded * x) / diameter + narrow * x * x / (diameter * diameter);
+  return std::min(k, kLargestCoefficient);
 }
 
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
   switch (solid_operator) {
     case lbm::SolidOperator::force:
-      return {1.35, 5.7, 16.5, 0};
+      return {2, 6.1, 6.7, 54};
     case lbm::SolidOperator::sc3:
       return {0.4, 4.4, 7.5, 0};
     default:

@@ -7,7 +7,8 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 namespace {
 
-/// Adding and subtracting this rounds to multiples of 2^-20 as long as sums stay below 16: exact in any order.
+/// Adding and subtracting this rounds to multiples of 2^-20 as long as sums stay below 16: exact in any
+/// order.
 constexpr float kRounding = 12.f;
 
 /// Which cells of a row, or rows, or planes, have their centre within `reach` of `position`.

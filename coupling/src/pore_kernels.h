@@ -19,11 +19,11 @@ struct PoreCells {
 /// add_nearness adds to each cell how near the sphere's surface is (1: within `near` radii or inside, 0:
 /// beyond `far`), and the surface in the cell.
 /// sum_pores adds up volume and surface of the pores in the ball of so many radii about the sphere.
-#define SUFFUSE_DECLARE_PORES(instruction_set)                                                        \
-  namespace instruction_set {                                                                         \
+#define SUFFUSE_DECLARE_PORES(instruction_set)                                                         \
+  namespace instruction_set {                                                                          \
   void add_nearness(const double* position, double radius, double near, double far, const PoreCells&); \
-  void sum_pores(const double* position, double radius, double reach, const PoreCells& cells,         \
-                 double* volume, double* surface);                                                    \
+  void sum_pores(const double* position, double radius, double reach, const PoreCells& cells,          \
+                 double* volume, double* surface);                                                     \
   }
 SUFFUSE_DECLARE_PORES(portable)
 SUFFUSE_DECLARE_PORES(avx2)

@@ -57,8 +57,8 @@ class FixHydrodynamicForce : public Fix {
   /// Brings the forces that the next half step of integration starts with up to date with the loads.
   void loads_changed();
 
-  /// Copies velocities, angular velocities and solid coefficients of owned grains to their ghosts. LIGGGHTS leaves the ghosts'
-  /// half a step behind. Collective.
+  /// Copies velocities, angular velocities and solid coefficients of owned grains to their ghosts. LIGGGHTS
+  /// leaves the ghosts' half a step behind. Collective.
   void update_ghost_velocities();
 
   /// Adds what ghosts hold in `force` and `torque` (3 for each of owned and ghost grains) to their owners.

@@ -35,7 +35,8 @@ std::vector<Pair> near_pairs(const PackingRequest& request, const std::vector<Ve
   const auto place = [&](int i, int j, int k) {
     return static_cast<std::size_t>((k * bins[1] + j) * bins[0] + i);
   };
-  for (std::size_t n = 0; n < x.size(); ++n) members[place(bin_of(n, 0), bin_of(n, 1), bin_of(n, 2))].push_back(n);
+  for (std::size_t n = 0; n < x.size(); ++n)
+    members[place(bin_of(n, 0), bin_of(n, 1), bin_of(n, 2))].push_back(n);
   std::vector<Pair> pairs;
   std::array<std::vector<int>, 3> around;
   for (std::size_t n = 0; n < x.size(); ++n) {
@@ -51,8 +52,8 @@ std::vector<Pair> near_pairs(const PackingRequest& request, const std::vector<Ve
       for (const int j : around[1])
         for (const int i : around[0])
           for (const std::size_t m : members[place(i, j, k)])
-            if (m > n && nearest_image(x[m] - x[n], request).norm() <
-                             request.radii[n] + request.radii[m] + margin)
+            if (m > n &&
+                nearest_image(x[m] - x[n], request).norm() < request.radii[n] + request.radii[m] + margin)
               pairs.push_back({n, m});
   }
   return pairs;
@@ -148,7 +149,8 @@ void shake(const PackingRequest& request, int sweeps, std::mt19937_64& random, s
   }
   for (Vec3& at : x)
     for (int a = 0; a < 3; ++a)
-      if (request.periodic[static_cast<std::size_t>(a)]) at[a] -= request.box[a] * std::floor(at[a] / request.box[a]);
+      if (request.periodic[static_cast<std::size_t>(a)])
+        at[a] -= request.box[a] * std::floor(at[a] / request.box[a]);
 }
 
 bool grow(const PackingRequest& request, std::vector<Vec3>& x) {
@@ -233,8 +235,7 @@ std::vector<double> appendix_c_radii() {
 
 std::vector<double> gap_graded_radii(int coarse, double ratio, double fines_share) {
   const double each = 1 / (ratio * ratio * ratio);
-  const auto fines =
-      static_cast<std::size_t>(std::lround(coarse * fines_share / (1 - fines_share) / each));
+  const auto fines = static_cast<std::size_t>(std::lround(coarse * fines_share / (1 - fines_share) / each));
   std::vector<double> radii(static_cast<std::size_t>(coarse), 1.);
   radii.insert(radii.end(), fines, 1 / ratio);
   return radii;

@@ -18,8 +18,8 @@ struct PackingRequest {
 
 /// Centres of the spheres, in the order of `radii`: none overlaps another (or its image) or a wall. From
 /// random places the spheres grow from nothing to their size while overlapping ones are pushed apart, and are
-/// then shaken as hard spheres; the same request gives the same packing. Equal spheres come as dense as 0.62. Throws std::runtime_error
-/// where they find no place.
+/// then shaken as hard spheres; the same request gives the same packing. Equal spheres come as dense as 0.62.
+/// Throws std::runtime_error where they find no place.
 std::vector<Vec3> random_packing(const PackingRequest& request);
 
 /// Smallest gap between two spheres (or a sphere and a wall), over the smaller radius; negative where they

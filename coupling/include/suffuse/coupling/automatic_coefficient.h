@@ -12,14 +12,14 @@ namespace suffuse::coupling {
 
 /// k of the viscosity-independent weighting for a sphere of diameter D (cells):
 ///
-///   k = constant + (single + crowded x + dense x^2)/D, x = D/(6 m), at most kLargestCoefficient,
+///   k = constant + (single + crowded x)/D + narrow (x/D)^2,  x = D/(6 m),  at most kLargestCoefficient,
 ///
 /// where m is the hydraulic radius of the pores around the sphere, in cells: their volume over the surface
 /// of grains that they wet. Among equal spheres x is near phi/(1 - phi). Calibrated so that the permeability
 /// of arrays and random packings is right at 5 to 20 cells a diameter (docs/decisions/solid-operator.md);
 /// valid for D >= 2.
 struct CoefficientLaw {
-  double constant = 0, single = 0, crowded = 0, dense = 0;
+  double constant = 0, single = 0, crowded = 0, narrow = 0;
 
   double operator()(double diameter, double crowding) const;
 };

@@ -14,8 +14,8 @@ namespace suffuse::coupling {
 struct SolidSettings {
   lbm::PartialSolidSettings cells;
   /// Calibrated, from each grain's diameter and the pores around it; with the viscosity-independent weighting
-  /// only. Found anew when grains come, and at steps that are multiples of `survey_every` if a grain has moved
-  /// by `survey_distance` (cells) since.
+  /// only. Found anew when grains come, and at steps that are multiples of `survey_every` if a grain has
+  /// moved by `survey_distance` (cells) since.
   bool automatic_coefficient = true;
   std::optional<CoefficientLaw> law;  ///< else coefficient_law of the operator
   int survey_every = 20;
