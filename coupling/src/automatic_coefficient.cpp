@@ -30,7 +30,7 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
     case lbm::SolidOperator::force:
       return {2, 6.1, 6.7, 54};
     case lbm::SolidOperator::sc3:
-      return {0.4, 4.4, 7.5, 0};
+      return {0.53, 5.9, 6.1, 24};
     default:
       throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
                         "give a number, or change the operator"});
