@@ -23,7 +23,7 @@ namespace LAMMPS_NS {
 class FixHydrodynamicForce : public Fix {
  public:
   static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
-  static constexpr int kHistoryValues = 33;  ///< the coupling's memory of a grain (particle_port.h)
+  static constexpr int kHistoryValues = 27;  ///< the coupling's memory of a grain (particle_port.h)
 
   FixHydrodynamicForce(LAMMPS* lmp, int narg, char** arg);
   ~FixHydrodynamicForce() override;
