@@ -115,6 +115,7 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   LoadRule rule;
   rule.fluid_density = units_.density();
   rule.time_step = units_.time_step();
+  rule.spacing = units_.spacing();
   if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
   rule.average = settings_.average_force;
   rule.rotation = settings_.effects.rotation != Switch::off;

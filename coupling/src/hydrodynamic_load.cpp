@@ -11,13 +11,15 @@ double sphere_volume(double radius) {
 Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
                   const LoadRule& rule) {
   if (!before.known) return exchange;
-  const double mass = rule.fluid_density * sphere_volume(now.radius),
-               moment = 0.4 * mass * now.radius * now.radius;
-  return {exchange.force +
-              (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_step,
-          exchange.torque + (moment * (now.angular_velocity - before.angular_velocity) + lead.spin -
-                             before.lead.spin) /
-                                rule.time_step};
+  Load load = exchange;
+  const double mass = rule.fluid_density * sphere_volume(now.radius);
+  load.force +=
+      (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_step;
+  if (now.radius < rule.spacing) return load;
+  const double moment = mass * (0.4 * now.radius * now.radius + rule.spacing * rule.spacing / 6);
+  load.torque += (moment * (now.angular_velocity - before.angular_velocity) + lead.spin - before.lead.spin) /
+                 rule.time_step;
+  return load;
 }
 
 Load hydrodynamic_load(const Load& surface, const GrainState& now, const GrainHistory& before,

@@ -16,7 +16,8 @@ constexpr double kMargin = 1.5;
 
 double response_coefficient(double radius, double viscosity) {
   const double larger = 1 + 0.5 / radius;
-  return 0.5 * larger * larger * larger + 9 * std::sqrt(viscosity / std::numbers::pi) / radius + 4.5 * viscosity / (radius * radius);
+  return 0.5 * larger * larger * larger + 9 * std::sqrt(viscosity / std::numbers::pi) / radius +
+         4.5 * viscosity / (radius * radius);
 }
 
 double rotational_response_coefficient(double radius, double viscosity) {

@@ -61,13 +61,14 @@ inline PrescribedGrains::Grain sphere_at(const Vec3& position, double radius, do
   return grain;
 }
 
-/// A simulation with its grains, on all ranks.
+/// A simulation with its grains, on all ranks of a communicator.
 class Scene {
  public:
-  Scene(const CoupledSettings& settings, const Index3& cells, std::vector<PrescribedGrains::Grain> list)
-      : grains(std::move(list), Vec3(cells[0], cells[1], cells[2]), periodic(settings), 1.),
+  Scene(const CoupledSettings& settings, const Index3& cells, std::vector<PrescribedGrains::Grain> list,
+        MPI_Comm communicator = MPI_COMM_WORLD)
+      : grains(std::move(list), Vec3(cells[0], cells[1], cells[2]), periodic(settings), 1., communicator),
         simulation(std::make_unique<CoupledSimulation>(
-            settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, cells), Vec3::Zero(), grains)) {}
+            settings, lbm::Decomposition::balanced(communicator, cells), Vec3::Zero(), grains)) {}
 
   void run(long steps) {
     for (long n = 0; n < steps; ++n) simulation->step();

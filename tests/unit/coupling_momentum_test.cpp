@@ -44,12 +44,13 @@ Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grain
     const auto past = [&](int place) {
       return Vec3(Eigen::Map<const Vec3>(memory + kHistoryLength * n + place));
     };
-    const Vec3 held = sphere_volume(g.radius) * units.density() * past(history::velocity) + past(history::lead);
+    const Vec3 held =
+        sphere_volume(g.radius) * units.density() * past(history::velocity) + past(history::lead);
     sum += sphere_volume(g.radius) * g.density * g.velocity - held;
     const Vec3 change = g.velocity - past(history::velocity),
                before = units.time_step() * past(history::acceleration);
-    sum += memory[kHistoryLength * n + history::virtual_mass] *
-           (before / kPredictionRate + (change - before));
+    sum +=
+        memory[kHistoryLength * n + history::virtual_mass] * (before / kPredictionRate + (change - before));
   }
   return sum;
 }

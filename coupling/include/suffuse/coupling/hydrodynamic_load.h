@@ -35,6 +35,7 @@ struct GrainHistory {
 struct LoadRule {
   double fluid_density = 1000;          ///< kg/m^3
   double time_step = 0;                 ///< of the fluid, s
+  double spacing = 0;                   ///< of its cells, m
   Vec3 buoyant_gravity = Vec3::Zero();  ///< m/s^2; zero without buoyancy
   bool average = false;                 ///< mean load of this and the last fluid step
   bool rotation = true;                 ///< false: no torque
@@ -45,11 +46,14 @@ double sphere_volume(double radius);
 
 /// What the fluid outside does to a grain, from what its cells exchanged in a fluid step:
 ///
-///   F = F_exchange + d/dt (rho_f V u + lead),   T = T_exchange + d/dt (2/5 rho_f V a^2 w + spin lead).
+///   F = F_exchange + d/dt (rho_f V u + lead),   T = T_exchange + d/dt (rho_f V (2/5 a^2 + dx^2/6) w + spin
+///   lead).
 ///
 /// The exchange also accelerates the fluid that the grain's cells hold, whose momentum is the bracket; its
-/// change over the step gives that back (docs key: kempefrohlich2012, eqs 21 to 23). What is left is what has come
-/// in through the surface. Without history the second term is zero.
+/// change over the step gives that back (docs key: kempefrohlich2012). What is left is what has come in
+/// through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
+/// cell around it. Without history the second term is zero, and for spheres below two cells a diameter that
+/// of the torque: a cell or two hold them, whose own inertia is larger than theirs.
 Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
                   const LoadRule& rule);
 

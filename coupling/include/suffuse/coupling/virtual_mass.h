@@ -8,10 +8,10 @@ namespace suffuse::coupling {
 ///
 ///   (m + Cv m_f) a = F + Cv m_f a_before   (a_before: running mean of the acceleration, kPredictionRate),
 ///
-/// and the same with moments of inertia (docs key: schwarz2015). The exact motion changes by a lag of some steps
-/// only, but the explicit exchange does not: the fluid answers a sudden change of a sphere's velocity with
-/// C m_f times that change, part of it at once and part in the steps after. A light grain follows only with
-/// a virtual mass of about that size, and only if a_before is slower than the answer.
+/// and the same with moments of inertia (docs key: schwarz2015). The exact motion changes by a lag of some
+/// steps only, but the explicit exchange does not: the fluid answers a sudden change of a sphere's velocity
+/// with C m_f times that change, part of it at once and part in the steps after. A light grain follows only
+/// with a virtual mass of about that size, and only if a_before is slower than the answer.
 struct VirtualMassRule {
   /// The same Cv for translation and rotation of every grain (0: none); otherwise the estimate of C, for the
   /// grains that need it.
@@ -39,8 +39,8 @@ double response_coefficient(double radius, double viscosity);
 /// The same for rotation, in moments of inertia of the displaced fluid: 10 sqrt(nu/pi)/a + 15 nu/a^2.
 double rotational_response_coefficient(double radius, double viscosity);
 
-/// Of a sphere of `radius` (m) and `mass` (kg). The estimate is for a lone sphere; grains get 1.5 times it from
-/// C m_f > 0.4 m on, as neighbours make the fluid's answer stiffer.
+/// Of a sphere of `radius` (m) and `mass` (kg). The estimate is for a lone sphere; grains get 1.5 times it
+/// from C m_f > 0.4 m on, as neighbours make the fluid's answer stiffer.
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass);
 
 }  // namespace suffuse::coupling
