@@ -77,7 +77,7 @@ std::optional<GradingGap> widest_gap(const std::vector<GradingPoint>& curve, con
     std::size_t end = i + 1;
     if (curve[end].finer - curve[i].finer > rule.curve_rise) continue;
     while (end + 1 < curve.size() && curve[end + 1].finer - curve[i].finer <= rule.curve_rise) ++end;
-    const GradingGap found{curve[i].diameter, curve[end].diameter, curve[i].finer};
+    const GradingGap found{curve[i].diameter, curve[end].diameter, curve[i].finer, 0};
     const bool inside = found.finer > 0.01 && curve[end].finer < 0.99;
     if (inside && found.ratio() >= rule.class_ratio && (!widest || found.ratio() > widest->ratio()))
       widest = found;
@@ -112,6 +112,10 @@ Grading Grading::from_classes(std::span<const GradingClass> classes, const GapRu
   for (GradingClass& one : grading.classes_) one.mass /= total;
   grading.curve_ = spread(grading.classes_, rule);
   grading.gap_ = widest_gap(grading.curve_, rule);
+  for (std::size_t i = 0; grading.gap_ && i + 1 < classes.size(); ++i)
+    if (classes[i].diameter <= grading.gap_->finer_diameter &&
+        classes[i + 1].diameter > grading.gap_->finer_diameter)
+      grading.gap_->class_ratio = classes[i + 1].diameter / classes[i].diameter;
   return grading;
 }
 

@@ -226,20 +226,26 @@ CriterionResult kenney_lau(const Grading& grading, const StabilityLimits& limits
 }
 
 CriterionResult chapuis_kezdi(const Grading& grading, const StabilityLimits& limits) {
+  // Above d_max/4 the rest of the curve lies within a factor of four, and its slope falls to nothing at the
+  // end.
   double least = kInfinity, where = 0;
-  for (const ShapePoint& point : shape_curve(grading, 1 - limits.chapuis_finer))
-    if (point.interval < least - 1e-12) {
+  for (const ShapePoint& point : shape_curve(grading, 1))
+    if (4 * point.diameter <= grading.largest() * (1 + 1e-12) && point.interval < least - 1e-12) {
       least = point.interval;
       where = point.diameter;
     }
-  return {"Chapuis, Kezdi's slope",
-          "least slope per log cycle",
-          std::max(0.0, least) / kLogOfFour,
-          fmt::format("stable >= {:.3f}", limits.chapuis_finer / kLogOfFour),
-          stable_if(least >= limits.chapuis_finer),
-          "chapuis1992",
-          fmt::format("from {} to four times it; the thesis gives no upper end of the search, here F = {}",
-                      size(where), percent(1 - limits.chapuis_finer))};
+  if (where == 0) {
+    least = 1;
+    where = grading.smallest();
+  }
+  return {
+      "Chapuis, Kezdi's slope",
+      "least slope per log cycle",
+      std::max(0.0, least) / kLogOfFour,
+      fmt::format("stable >= {:.3f}", limits.chapuis_finer / kLogOfFour),
+      stable_if(least >= limits.chapuis_finer - 1e-9),
+      "chapuis1992",
+      fmt::format("from {} to four times it, searched up to a quarter of the largest grain", size(where))};
 }
 
 CriterionResult chapuis_kenney_lau(const Grading& grading, const StabilityLimits& limits) {
@@ -286,6 +292,8 @@ CriterionResult honjo(const Grading& grading, const StabilityLimits& limits) {
   result.value = grading.gap()->ratio();
   result.verdict = stable_if(result.value <= limits.honjo_gap_ratio);
   result.note = gap_or_continuous(grading);
+  if (grading.gap()->class_ratio > 0)
+    result.note += fmt::format("; {:.3g} between the classes' own sizes", grading.gap()->class_ratio);
   return result;
 }
 

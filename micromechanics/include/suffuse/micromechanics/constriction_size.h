@@ -29,8 +29,10 @@ enum class LoosePore {
 /// 2/D_c = Σk + 2√(k1k2 + k2k3 + k3k1), k = 2/D (keys: locke2001, indraratna2007). 0.1547 D for equal grains.
 double three_grain_constriction(double d1, double d2, double d3);
 
-/// Hole in a ring of four grains, each touching the next (loose arrangement), m, for the shape of the ring in
-/// which it is largest; opposite grains touch at most. `diameters` in ring order.
+/// Hole in a ring of four grains, each touching the next (loose arrangement), m; opposite grains touch at
+/// most. By area: for the shape of the ring in which it is largest. Inscribed: for the shape in which a disc
+/// touches all four, which is the largest disc of any shape, or 0.2 % below it beside a small grain.
+/// `diameters` in ring order.
 double four_grain_constriction(const std::array<double, 4>& diameters, LoosePore pore);
 
 /// Free area inside such a ring with the angle `angle` at its first grain (key: locke2001), m²; −1 where no

@@ -24,6 +24,8 @@ struct GradingGap {
   double finer_diameter = 0;    ///< largest grain of the fine fraction, m
   double coarser_diameter = 0;  ///< smallest grain of the coarse fraction, m
   double finer = 0;             ///< fines content, share of the mass
+  /// Between the ends of the classes; 0 for a grading from a curve. Without spreading the classes, so larger.
+  double class_ratio = 0;
   double ratio() const { return coarser_diameter / finer_diameter; }
 };
 
