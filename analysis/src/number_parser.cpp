@@ -1,7 +1,9 @@
 #include "suffuse/analysis/number_parser.h"
 
 #include <array>
+#include <bit>
 #include <charconv>
+#include <cstring>
 
 namespace suffuse::analysis {
 namespace {
@@ -15,6 +17,40 @@ constexpr std::uint64_t kLargestMantissa = std::uint64_t{1} << 53;
 
 bool is_digit(char c) {
   return static_cast<unsigned char>(c - '0') < 10;
+}
+
+/// Number of digits at the low end of eight characters that have been lowered by '0' (0 to 8).
+int digits_at_the_front(std::uint64_t lowered) {
+  const std::uint64_t above_nine = ((lowered + 0x7676767676767676) | lowered) & 0x8080808080808080;
+  return above_nine == 0 ? 8 : std::countr_zero(above_nine) / 8;
+}
+
+/// Eight digits, the first in the lowest byte, as a number: pairs, then fours, then all.
+std::uint64_t value_of_eight(std::uint64_t digits) {
+  digits = digits * 10 + (digits >> 8);
+  return (((digits & 0x000000FF000000FF) * 0x000F424000000064) +
+          (((digits >> 16) & 0x000000FF000000FF) * 0x0000271000000001)) >>
+         32;
+}
+
+constexpr std::array<std::uint64_t, 9> kShifts{1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
+
+/// Appends the digits at `at` to the mantissa, eight at a time where the text is long enough; returns where
+/// they end. The mantissa is wrong, without harm, beyond 19 digits.
+const char* take_digits(const char* at, const char* end, std::uint64_t& mantissa) {
+  while (std::endian::native == std::endian::little && end - at >= 8) {
+    std::uint64_t chunk = 0;
+    std::memcpy(&chunk, at, 8);
+    chunk ^= 0x3030303030303030;
+    const int count = digits_at_the_front(chunk);
+    if (count == 0) return at;
+    const std::uint64_t aligned = chunk << (64 - 8 * count);  // leading zeros instead of what follows
+    mantissa = mantissa * kShifts[static_cast<std::size_t>(count)] + value_of_eight(aligned);
+    at += count;
+    if (count < 8) return at;
+  }
+  while (at < end && is_digit(*at)) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*at++ - '0');
+  return at;
 }
 
 /// The general way: nan, inf, many digits, far exponents.
@@ -39,12 +75,12 @@ const char* parse_number(const char* at, const char* end, double& value) {
   if (negative) ++at;
   std::uint64_t mantissa = 0;
   const char* const first_digit = at;
-  while (at < end && is_digit(*at)) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*at++ - '0');
+  at = take_digits(at, end, mantissa);
   long digits = at - first_digit;
   int exponent = 0;
   if (at < end && *at == '.') {
     const char* const first_decimal = ++at;
-    while (at < end && is_digit(*at)) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*at++ - '0');
+    at = take_digits(at, end, mantissa);
     exponent = -static_cast<int>(at - first_decimal);
     digits -= exponent;
   }
