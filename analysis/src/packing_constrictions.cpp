@@ -22,8 +22,9 @@ namespace suffuse::analysis {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel,
-                                                               CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_3<std::size_t, Kernel,
+                                                CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
 using CellBase = CGAL::Triangulation_cell_base_with_info_3<std::size_t, Kernel,
                                                            CGAL::Regular_triangulation_cell_base_3<Kernel>>;
 using Triangulation =
@@ -41,8 +42,8 @@ struct VoidSphere {
 
 /// Sphere outside of four grains that touches them all; none for four grains in a plane and the like.
 std::optional<VoidSphere> tangent_sphere(const std::array<const Sphere*, 4>& grains) {
-  // |x − c_i| = r + R_i; less the first equation: 2(c_i − c_0)·x + 2(R_i − R_0) r = |c_i|² − |c_0|² − R_i² + R_0²,
-  // about c_0, so x = p + q r, then a quadratic for r.
+  // |x − c_i| = r + R_i; less the first equation: 2(c_i − c_0)·x + 2(R_i − R_0) r = |c_i|² − |c_0|² − R_i² +
+  // R_0², about c_0, so x = p + q r, then a quadratic for r.
   Mat3 matrix;
   Vec3 constant, linear;
   for (int row = 0; row < 3; ++row) {
@@ -121,8 +122,8 @@ bool is_free(const Circle& disc, const std::vector<Circle>& circles) {
   });
 }
 
-/// Largest disc of a face: the one between its three grains or, where others intrude, the largest free one that
-/// touches three of all, its centre in the face.
+/// Largest disc of a face: the one between its three grains or, where others intrude, the largest free one
+/// that touches three of all, its centre in the face.
 std::optional<Circle> disc_of_face(const std::array<Circle, 3>& corners, const std::vector<Circle>& around) {
   const std::vector<Circle> own = tangent_circles(corners[0], corners[1], corners[2]);
   if (own.empty()) return std::nullopt;
@@ -130,7 +131,8 @@ std::optional<Circle> disc_of_face(const std::array<Circle, 3>& corners, const s
       own.begin(), own.end(), [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
   std::vector<Circle> circles(corners.begin(), corners.end());
   for (const Circle& circle : around)
-    if ((circle.centre - between.centre).norm() < (circle.radius + between.radius) * (1 - kTouch)) circles.push_back(circle);
+    if ((circle.centre - between.centre).norm() < (circle.radius + between.radius) * (1 - kTouch))
+      circles.push_back(circle);
   if (circles.size() == 3) return between;
   std::vector<Circle> all(corners.begin(), corners.end());
   all.insert(all.end(), around.begin(), around.end());
@@ -139,8 +141,8 @@ std::optional<Circle> disc_of_face(const std::array<Circle, 3>& corners, const s
     for (std::size_t j = i + 1; j < circles.size(); ++j)
       for (std::size_t k = j + 1; k < circles.size(); ++k)
         for (const Circle& disc : tangent_circles(circles[i], circles[j], circles[k]))
-          if ((!best || disc.radius > best->radius) && inside(disc.centre, corners, kTouch * between.radius) &&
-              is_free(disc, all))
+          if ((!best || disc.radius > best->radius) &&
+              inside(disc.centre, corners, kTouch * between.radius) && is_free(disc, all))
             best = disc;
   return best;
 }
@@ -148,7 +150,9 @@ std::optional<Circle> disc_of_face(const std::array<Circle, 3>& corners, const s
 /// Which cells are one pore.
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  explicit UnionFind(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
   std::size_t root(std::size_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
@@ -171,7 +175,8 @@ void check(std::span<const Sphere> grains, const SphereBox& box) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     const double length = box.high[axis] - box.low[axis];
-    if (!(std::isfinite(length) && length > 0)) refuse("box", fmt::format("{:g} m long", length), "have a length");
+    if (!(std::isfinite(length) && length > 0))
+      refuse("box", fmt::format("{:g} m long", length), "have a length");
   }
 }
 
@@ -184,12 +189,11 @@ class Network {
     void_spheres();
   }
 
-  /// Distance by which void spheres of the counted period reach beyond it.
-  double reach() const {
-    double reach = 0;
+  double largest_void_radius() const {
+    double largest = 0;
     for (const VoidSphere& sphere : spheres_)
-      if (counted(sphere.centre)) reach = std::max(reach, 2 * sphere.radius);
-    return reach;
+      if (counted(sphere.centre)) largest = std::max(largest, sphere.radius);
+    return largest;
   }
 
   PackingConstrictions constrictions(double merge_overlap);
@@ -199,6 +203,7 @@ class Network {
   void triangulate();
   void void_spheres();
   bool counted(const Vec3& point) const;
+  void join_flat_cells(UnionFind& pores) const;
   std::optional<Constriction> constriction_of(const Triangulation::Facet& facet) const;
   const Sphere& grain(Triangulation::Vertex_handle vertex) const { return grains_[vertex->info()]; }
 
@@ -237,14 +242,17 @@ void Network::triangulate() {
   points.reserve(grains_.size());
   for (std::size_t i = 0; i < grains_.size(); ++i) {
     const Vec3& c = grains_[i].centre;
-    points.emplace_back(Kernel::Weighted_point_3(Kernel::Point_3(c.x(), c.y(), c.z()), grains_[i].radius * grains_[i].radius), i);
+    points.emplace_back(
+        Kernel::Weighted_point_3(Kernel::Point_3(c.x(), c.y(), c.z()), grains_[i].radius * grains_[i].radius),
+        i);
   }
   triangulation_.insert(points.begin(), points.end());
   if (triangulation_.dimension() < 3)
     throw_user_error({"constriction", "grains", "all in one plane", "fill a volume", ""});
   beside_.resize(grains_.size());
   for (auto edge = triangulation_.finite_edges_begin(); edge != triangulation_.finite_edges_end(); ++edge) {
-    const std::size_t one = edge->first->vertex(edge->second)->info(), other = edge->first->vertex(edge->third)->info();
+    const std::size_t one = edge->first->vertex(edge->second)->info(),
+                      other = edge->first->vertex(edge->third)->info();
     beside_[one].push_back(other);
     beside_[other].push_back(one);
   }
@@ -260,8 +268,8 @@ void Network::void_spheres() {
     if (sphere)
       for (int i = 0; i < 4; ++i)
         for (const std::size_t other : beside_[cell->vertex(i)->info()])
-          sphere->radius =
-              std::min(sphere->radius, (grains_[other].centre - sphere->centre).norm() - grains_[other].radius);
+          sphere->radius = std::min(sphere->radius,
+                                    (grains_[other].centre - sphere->centre).norm() - grains_[other].radius);
     spheres_.push_back(sphere && sphere->radius > 0 ? *sphere : VoidSphere{});
   }
 }
@@ -307,37 +315,64 @@ std::optional<Constriction> Network::constriction_of(const Triangulation::Facet&
   }
   const std::optional<Circle> disc = disc_of_face(corners, around);
   if (!disc) return std::nullopt;
-  return Constriction{corner[0]->centre + disc->centre.x() * along + disc->centre.y() * across, normal, 2 * disc->radius};
+  return Constriction{corner[0]->centre + disc->centre.x() * along + disc->centre.y() * across, normal,
+                      2 * disc->radius};
 }
 
 /// The same disc found in several faces, but for round-off, is kept once.
 std::vector<Constriction> without_repeats(std::vector<Constriction> all) {
-  std::sort(all.begin(), all.end(), [](const Constriction& a, const Constriction& b) { return a.centre.x() < b.centre.x(); });
+  std::sort(all.begin(), all.end(),
+            [](const Constriction& a, const Constriction& b) { return a.centre.x() < b.centre.x(); });
   std::vector<Constriction> kept;
   for (const Constriction& one : all) {
     const double tolerance = 1e-6 * one.diameter;
     bool known = false;
-    for (auto other = kept.rbegin(); !known && other != kept.rend() && other->centre.x() >= one.centre.x() - tolerance; ++other)
-      known = (other->centre - one.centre).norm() <= tolerance && std::abs(other->diameter - one.diameter) <= tolerance;
+    for (auto other = kept.rbegin();
+         !known && other != kept.rend() && other->centre.x() >= one.centre.x() - tolerance; ++other)
+      known = (other->centre - one.centre).norm() <= tolerance &&
+              std::abs(other->diameter - one.diameter) <= tolerance;
     if (!known) kept.push_back(one);
   }
   return kept;
 }
 
+/// A cell without a void sphere (four grains nearly in a plane) is no pore of its own: it goes to the
+/// neighbour behind its widest face.
+void Network::join_flat_cells(UnionFind& pores) const {
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (spheres_[i].radius > 0) continue;
+    double widest = 0;
+    std::optional<std::size_t> behind;
+    for (int face = 0; face < 4; ++face) {
+      const auto other = cells_[i]->neighbor(face);
+      if (triangulation_.is_infinite(other)) continue;
+      const std::optional<Constriction> disc = constriction_of({cells_[i], face});
+      if (disc && disc->diameter > widest) {
+        widest = disc->diameter;
+        behind = other->info();
+      }
+    }
+    if (behind) pores.join(i, *behind);
+  }
+}
+
 PackingConstrictions Network::constrictions(double merge_overlap) {
   UnionFind pores(cells_.size());
-  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end(); ++facet) {
+  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end();
+       ++facet) {
     const auto other = facet->first->neighbor(facet->second);
     if (triangulation_.is_infinite(facet->first) || triangulation_.is_infinite(other)) continue;
     const VoidSphere &one = spheres_[facet->first->info()], &two = spheres_[other->info()];
     const double smaller = std::min(one.radius, two.radius);
     const double overlap = one.radius + two.radius - (one.centre - two.centre).norm();
-    // A cell without a void sphere (four grains in a plane) is no pore of its own.
-    if (smaller <= 0 || overlap > 2 * smaller * merge_overlap * (1 - kTouch)) pores.join(facet->first->info(), other->info());
+    if (smaller > 0 && overlap > 2 * smaller * merge_overlap * (1 - kTouch))
+      pores.join(facet->first->info(), other->info());
   }
+  join_flat_cells(pores);
   PackingConstrictions result;
   std::vector<Constriction> found;
-  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end(); ++facet) {
+  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end();
+       ++facet) {
     const auto other = facet->first->neighbor(facet->second);
     if (triangulation_.is_infinite(facet->first) || triangulation_.is_infinite(other)) continue;
     if (pores.root(facet->first->info()) == pores.root(other->info())) continue;
@@ -366,10 +401,12 @@ PackingConstrictions Network::constrictions(double merge_overlap) {
 
 }  // namespace
 
-PackingConstrictions packing_constrictions(std::span<const Sphere> grains, const SphereBox& box, double merge_overlap) {
+PackingConstrictions packing_constrictions(std::span<const Sphere> grains, const SphereBox& box,
+                                           double merge_overlap) {
   check(grains, box);
   if (!(merge_overlap >= 0 && merge_overlap <= 1))
-    throw_user_error({"constriction", "merge overlap", fmt::format("{:g}", merge_overlap), "be between 0 and 1", ""});
+    throw_user_error(
+        {"constriction", "merge overlap", fmt::format("{:g}", merge_overlap), "be between 0 and 1", ""});
   std::vector<Sphere> wrapped(grains.begin(), grains.end());
   for (Sphere& grain : wrapped)
     for (int axis = 0; axis < 3; ++axis)
@@ -382,8 +419,11 @@ PackingConstrictions packing_constrictions(std::span<const Sphere> grains, const
   double margin = 1.5 * largest;
   for (int attempt = 0;; ++attempt) {
     Network network(wrapped, box, margin);
-    const double reach = network.reach() + largest;
-    if (reach <= margin || attempt == 3 || std::none_of(box.periodic.begin(), box.periodic.end(), [](bool p) { return p; }))
+    // Grains that a void sphere of the period may touch are within its radius and theirs; their neighbours
+    // further.
+    const double reach = network.largest_void_radius() + largest;
+    if (reach <= margin || attempt == 3 ||
+        std::none_of(box.periodic.begin(), box.periodic.end(), [](bool p) { return p; }))
       return network.constrictions(merge_overlap);
     margin = 1.1 * reach;
   }

@@ -7,8 +7,8 @@
 
 namespace suffuse::analysis {
 
-/// Reads a particle size distribution from a CSV file: one row of names, then numbers; lines that begin with #
-/// are left out. Columns by name, others ignored: `diameter_m` or `diameter_mm` (or `radius_m`), and one of
+/// Reads a particle size distribution from a CSV file: one row of names, then numbers; lines that begin with
+/// # are left out. Columns by name, others ignored: `diameter_m` or `diameter_mm` (or `radius_m`), and one of
 /// `mass_fraction` (adding to 1 within 0.1 %), `mass_kg`, `percent_finer` (cumulative, ending at 100). Sizes
 /// sorted either way; at least two.
 ///

@@ -36,13 +36,14 @@ struct PackingConstrictions {
 /// Constrictions of an actual packing (keys: reboul2010, shireosullivan2016): regular (weighted Delaunay)
 /// triangulation of the grains with weights radius²; a void sphere in each tetrahedron, tangent to its four
 /// grains and cut back where a fifth intrudes; tetrahedra whose void spheres overlap by more than
-/// `merge_overlap` of the smaller one's diameter are one pore; in each face left between two pores the largest
-/// disc in its plane that touches three of the grains there, intruding ones included. A disc that several faces
-/// share counts once.
+/// `merge_overlap` of the smaller one's diameter are one pore; in each face left between two pores the
+/// largest disc in its plane that touches three of the grains there, intruding ones included. A disc that
+/// several faces share counts once.
 ///
-/// `merge_overlap`: 0 merges at any overlap, 1 only where one sphere holds the other. Periodic images are made
-/// as far as 1.5 of the largest grain, further where void spheres are larger. Throws UserError on fewer than
-/// four grains, radii that are not positive, a box too small, or grains outside it along a periodic direction.
+/// `merge_overlap`: 0 merges at any overlap, 1 only where one sphere holds the other. Periodic images are
+/// made as far as 1.5 of the largest grain, further where void spheres are larger. Throws UserError on fewer
+/// than four grains, radii that are not positive, a box too small, or grains outside it along a periodic
+/// direction.
 PackingConstrictions packing_constrictions(std::span<const Sphere> grains, const SphereBox& box,
                                            double merge_overlap = 0.5);
 
