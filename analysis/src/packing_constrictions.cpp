@@ -31,6 +31,9 @@ using Triangulation =
     CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
 constexpr double kTouch = 1e-9;  // of a radius: tangent, but for round-off
+/// A tetrahedron of less volume (times 6, of the product of three edges) is flat: where the sphere that
+/// touches its four grains has its centre says nothing about pores.
+constexpr double kFlat = 1e-3;
 
 /// Offset of the period that is counted, in box lengths: discs of regular arrays do not lie on its faces.
 const Vec3 kOffset(0.01234, 0.02345, 0.03456);
@@ -53,8 +56,9 @@ std::optional<VoidSphere> tangent_sphere(const std::array<const Sphere*, 4>& gra
     constant[row] = apart.squaredNorm() - other.radius * other.radius + grains[0]->radius * grains[0]->radius;
     linear[row] = -2 * (other.radius - grains[0]->radius);
   }
-  const Eigen::FullPivLU<Mat3> factors(matrix);
-  if (!factors.isInvertible()) return std::nullopt;
+  const double edges = matrix.row(0).norm() * matrix.row(1).norm() * matrix.row(2).norm();
+  if (std::abs(matrix.determinant()) < kFlat * edges) return std::nullopt;
+  const Eigen::PartialPivLU<Mat3> factors(matrix);
   const Vec3 p = factors.solve(constant), q = factors.solve(linear);
   const double own = grains[0]->radius;
   const double a = q.squaredNorm() - 1, b = 2 * (p.dot(q) - own), c = p.squaredNorm() - own * own;
@@ -116,33 +120,33 @@ bool inside(const Eigen::Vector2d& point, const std::array<Circle, 3>& corners, 
          (one <= tolerance && two <= tolerance && three <= tolerance);
 }
 
-bool is_free(const Circle& disc, const std::vector<Circle>& circles) {
-  return std::all_of(circles.begin(), circles.end(), [&](const Circle& circle) {
-    return (disc.centre - circle.centre).norm() >= (disc.radius + circle.radius) * (1 - kTouch);
-  });
+bool are_apart(const Circle& one, const Circle& other) {
+  return (one.centre - other.centre).norm() >= (one.radius + other.radius) * (1 - kTouch);
 }
 
-/// Largest disc of a face: the one between its three grains or, where others intrude, the largest free one
-/// that touches three of all, its centre in the face.
-std::optional<Circle> disc_of_face(const std::array<Circle, 3>& corners, const std::vector<Circle>& around) {
-  const std::vector<Circle> own = tangent_circles(corners[0], corners[1], corners[2]);
-  if (own.empty()) return std::nullopt;
-  const Circle between = *std::min_element(
-      own.begin(), own.end(), [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
+/// The disc between the three grains of a face; none where they overlap too much.
+std::optional<Circle> disc_between(const std::array<Circle, 3>& corners) {
+  const std::vector<Circle> found = tangent_circles(corners[0], corners[1], corners[2]);
+  if (found.empty()) return std::nullopt;
+  return *std::min_element(found.begin(), found.end(),
+                           [](const Circle& a, const Circle& b) { return a.radius < b.radius; });
+}
+
+/// Where others intrude: the largest free disc with its centre in the face that touches three of all grains.
+/// `around`: every grain that comes near the face.
+std::optional<Circle> disc_beside_intruders(const std::array<Circle, 3>& corners,
+                                            const std::vector<Circle>& around) {
   std::vector<Circle> circles(corners.begin(), corners.end());
-  for (const Circle& circle : around)
-    if ((circle.centre - between.centre).norm() < (circle.radius + between.radius) * (1 - kTouch))
-      circles.push_back(circle);
-  if (circles.size() == 3) return between;
-  std::vector<Circle> all(corners.begin(), corners.end());
-  all.insert(all.end(), around.begin(), around.end());
+  circles.insert(circles.end(), around.begin(), around.end());
   std::optional<Circle> best;
   for (std::size_t i = 0; i < circles.size(); ++i)
     for (std::size_t j = i + 1; j < circles.size(); ++j)
       for (std::size_t k = j + 1; k < circles.size(); ++k)
         for (const Circle& disc : tangent_circles(circles[i], circles[j], circles[k]))
           if ((!best || disc.radius > best->radius) &&
-              inside(disc.centre, corners, kTouch * between.radius) && is_free(disc, all))
+              inside(disc.centre, corners, kTouch * corners[0].radius) &&
+              std::all_of(circles.begin(), circles.end(),
+                          [&](const Circle& circle) { return are_apart(disc, circle); }))
             best = disc;
   return best;
 }
@@ -184,7 +188,9 @@ void check(std::span<const Sphere> grains, const SphereBox& box) {
 class Network {
  public:
   Network(std::span<const Sphere> grains, const SphereBox& box, double margin) : box_(box) {
+    for (const Sphere& grain : grains) largest_radius_ = std::max(largest_radius_, grain.radius);
     add_images(grains, margin);
+    grid_.emplace(grains_);
     triangulate();
     void_spheres();
   }
@@ -203,12 +209,18 @@ class Network {
   void triangulate();
   void void_spheres();
   bool counted(const Vec3& point) const;
-  void join_flat_cells(UnionFind& pores) const;
+  Vec3 wrapped(const Vec3& point) const;
+  Vec3 middle_of(std::size_t cell) const;
+  bool near_period(const Vec3& point) const;
+  bool overlap(std::size_t cell, std::size_t other, double share) const;
+  void join_flat_cells(UnionFind& pores, double merge_overlap) const;
   std::optional<Constriction> constriction_of(const Triangulation::Facet& facet) const;
   const Sphere& grain(Triangulation::Vertex_handle vertex) const { return grains_[vertex->info()]; }
 
   SphereBox box_;
   std::vector<Sphere> grains_;  ///< with images
+  double largest_radius_ = 0;
+  std::optional<SphereGrid> grid_;
   Triangulation triangulation_;
   std::vector<std::vector<std::size_t>> beside_;  ///< neighbours of each grain in the triangulation
   std::vector<Triangulation::Cell_handle> cells_;
@@ -284,16 +296,38 @@ bool Network::counted(const Vec3& point) const {
   return true;
 }
 
+Vec3 Network::middle_of(std::size_t cell) const {
+  Vec3 middle = Vec3::Zero();
+  for (int i = 0; i < 4; ++i) middle += grain(cells_[cell]->vertex(i)).centre / 4;
+  return middle;
+}
+
+/// In the counted period or within half of the largest grain of it.
+bool Network::near_period(const Vec3& point) const {
+  const Vec3 length = box_.high - box_.low;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!box_.periodic[static_cast<std::size_t>(axis)]) continue;
+    const double from_low = point[axis] - box_.low[axis] - kOffset[axis] * length[axis];
+    if (from_low < -largest_radius_ || from_low >= length[axis] + largest_radius_) return false;
+  }
+  return true;
+}
+
+Vec3 Network::wrapped(const Vec3& point) const {
+  const Vec3 length = box_.high - box_.low;
+  Vec3 result = point;
+  for (int axis = 0; axis < 3; ++axis)
+    if (box_.periodic[static_cast<std::size_t>(axis)])
+      result[axis] -=
+          length[axis] * std::floor((point[axis] - box_.low[axis]) / length[axis] - kOffset[axis]);
+  return result;
+}
+
 std::optional<Constriction> Network::constriction_of(const Triangulation::Facet& facet) const {
   std::array<const Sphere*, 3> corner{};
-  std::vector<std::size_t> candidates;
   std::size_t next = 0;
-  for (int i = 0; i < 4; ++i) {
-    if (i == facet.second) continue;
-    const auto vertex = facet.first->vertex(i);
-    corner[next++] = &grain(vertex);
-    candidates.insert(candidates.end(), beside_[vertex->info()].begin(), beside_[vertex->info()].end());
-  }
+  for (int i = 0; i < 4; ++i)
+    if (i != facet.second) corner[next++] = &grain(facet.first->vertex(i));
   const Vec3 along = (corner[1]->centre - corner[0]->centre).normalized();
   const Vec3 normal = along.cross(corner[2]->centre - corner[0]->centre).normalized();
   const Vec3 across = normal.cross(along);
@@ -303,20 +337,38 @@ std::optional<Constriction> Network::constriction_of(const Triangulation::Facet&
   };
   std::array<Circle, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) corners[i] = {in_plane(corner[i]->centre), corner[i]->radius};
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  const std::optional<Circle> between = disc_between(corners);
+  if (!between) return std::nullopt;
+  const auto in_space = [&](const Circle& disc) -> Vec3 {
+    return corner[0]->centre + disc.centre.x() * along + disc.centre.y() * across;
+  };
+  // Grains that cut the plane near the disc between the corners, or near the face itself.
   std::vector<Circle> around;
-  for (const std::size_t other : candidates) {
-    const Sphere& sphere = grains_[other];
-    if (&sphere == corner[0] || &sphere == corner[1] || &sphere == corner[2]) continue;
-    const double height = (sphere.centre - corner[0]->centre).dot(normal);
-    if (std::abs(height) < sphere.radius)
-      around.push_back({in_plane(sphere.centre), std::sqrt(sphere.radius * sphere.radius - height * height)});
-  }
-  const std::optional<Circle> disc = disc_of_face(corners, around);
+  const auto look = [&](const Vec3& centre, double radius) {
+    grid_->near(centre, radius, [&](std::size_t other) {
+      const Sphere& sphere = grains_[other];
+      if (&sphere == corner[0] || &sphere == corner[1] || &sphere == corner[2]) return;
+      const double height = (sphere.centre - corner[0]->centre).dot(normal);
+      if (std::abs(height) < sphere.radius)
+        around.push_back(
+            {in_plane(sphere.centre), std::sqrt(sphere.radius * sphere.radius - height * height)});
+    });
+  };
+  const Vec3 middle = (corner[0]->centre + corner[1]->centre + corner[2]->centre) / 3;
+  double reach = 0;
+  for (const Sphere* one : corner) reach = std::max(reach, (one->centre - middle).norm());
+  // A disc larger than the face lies mostly outside of it (corners almost in a line) and is not its
+  // constriction.
+  const bool is_of_face = between->radius <= reach;
+  if (is_of_face) look(in_space(*between), between->radius);
+  if (is_of_face && std::all_of(around.begin(), around.end(),
+                                [&](const Circle& circle) { return are_apart(*between, circle); }))
+    return Constriction{in_space(*between), normal, 2 * between->radius};
+  around.clear();
+  look(middle, reach);
+  const std::optional<Circle> disc = disc_beside_intruders(corners, around);
   if (!disc) return std::nullopt;
-  return Constriction{corner[0]->centre + disc->centre.x() * along + disc->centre.y() * across, normal,
-                      2 * disc->radius};
+  return Constriction{in_space(*disc), normal, 2 * disc->radius};
 }
 
 /// The same disc found in several faces, but for round-off, is kept once.
@@ -336,16 +388,28 @@ std::vector<Constriction> without_repeats(std::vector<Constriction> all) {
   return kept;
 }
 
-/// A cell without a void sphere (four grains nearly in a plane) is no pore of its own: it goes to the
-/// neighbour behind its widest face.
-void Network::join_flat_cells(UnionFind& pores) const {
+/// Whether the void spheres of two cells overlap by more than a share of the smaller one's diameter.
+bool Network::overlap(std::size_t cell, std::size_t other, double share) const {
+  const VoidSphere &one = spheres_[cell], &two = spheres_[other];
+  const double smaller = std::min(one.radius, two.radius);
+  return smaller > 0 &&
+         one.radius + two.radius - (one.centre - two.centre).norm() > 2 * smaller * share * (1 - kTouch);
+}
+
+/// A cell without a void sphere of its own (four grains nearly in a plane) is a window: its neighbours are
+/// compared with each other through it, and it goes to the one behind its widest face.
+void Network::join_flat_cells(UnionFind& pores, double merge_overlap) const {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (spheres_[i].radius > 0) continue;
+    if (spheres_[i].radius > 0 || !near_period(middle_of(i))) continue;
     double widest = 0;
     std::optional<std::size_t> behind;
+    std::vector<std::size_t> neighbours;
     for (int face = 0; face < 4; ++face) {
       const auto other = cells_[i]->neighbor(face);
       if (triangulation_.is_infinite(other)) continue;
+      for (const std::size_t known : neighbours)
+        if (overlap(known, other->info(), merge_overlap)) pores.join(known, other->info());
+      neighbours.push_back(other->info());
       const std::optional<Constriction> disc = constriction_of({cells_[i], face});
       if (disc && disc->diameter > widest) {
         widest = disc->diameter;
@@ -358,33 +422,27 @@ void Network::join_flat_cells(UnionFind& pores) const {
 
 PackingConstrictions Network::constrictions(double merge_overlap) {
   UnionFind pores(cells_.size());
-  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end();
-       ++facet) {
-    const auto other = facet->first->neighbor(facet->second);
-    if (triangulation_.is_infinite(facet->first) || triangulation_.is_infinite(other)) continue;
-    const VoidSphere &one = spheres_[facet->first->info()], &two = spheres_[other->info()];
-    const double smaller = std::min(one.radius, two.radius);
-    const double overlap = one.radius + two.radius - (one.centre - two.centre).norm();
-    if (smaller > 0 && overlap > 2 * smaller * merge_overlap * (1 - kTouch))
-      pores.join(facet->first->info(), other->info());
+  for (const auto& facet : triangulation_.finite_facets()) {
+    const auto other = facet.first->neighbor(facet.second);
+    if (triangulation_.is_infinite(facet.first) || triangulation_.is_infinite(other)) continue;
+    if (overlap(facet.first->info(), other->info(), merge_overlap))
+      pores.join(facet.first->info(), other->info());
   }
-  join_flat_cells(pores);
+  join_flat_cells(pores, merge_overlap);
   PackingConstrictions result;
   std::vector<Constriction> found;
-  for (auto facet = triangulation_.finite_facets_begin(); facet != triangulation_.finite_facets_end();
-       ++facet) {
-    const auto other = facet->first->neighbor(facet->second);
-    if (triangulation_.is_infinite(facet->first) || triangulation_.is_infinite(other)) continue;
-    if (pores.root(facet->first->info()) == pores.root(other->info())) continue;
-    const std::optional<Constriction> one = constriction_of(*facet);
-    if (!one) {
-      Vec3 middle = Vec3::Zero();
-      for (int i = 0; i < 4; ++i)
-        if (i != facet->second) middle += grain(facet->first->vertex(i)).centre / 3;
-      if (counted(middle)) ++result.closed;
-    } else if (counted(one->centre)) {
-      found.push_back(*one);
-    }
+  for (const auto& facet : triangulation_.finite_facets()) {
+    const auto other = facet.first->neighbor(facet.second);
+    if (triangulation_.is_infinite(facet.first) || triangulation_.is_infinite(other)) continue;
+    if (pores.root(facet.first->info()) == pores.root(other->info())) continue;
+    Vec3 middle = Vec3::Zero();  // a face is of the period that its middle is in
+    for (int i = 0; i < 4; ++i)
+      if (i != facet.second) middle += grain(facet.first->vertex(i)).centre / 3;
+    if (!counted(middle)) continue;
+    if (const std::optional<Constriction> one = constriction_of(facet))
+      found.push_back({wrapped(one->centre), one->normal, one->diameter});
+    else
+      ++result.closed;
   }
   result.constrictions = without_repeats(std::move(found));
   std::map<std::size_t, std::size_t> largest;  // pore → the cell with its largest sphere

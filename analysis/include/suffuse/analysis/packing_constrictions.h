@@ -4,14 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "suffuse/analysis/sphere_grid.h"
 #include "suffuse/common/linear_algebra.h"
 
 namespace suffuse::analysis {
-
-struct Sphere {
-  Vec3 centre = Vec3::Zero();  ///< m
-  double radius = 0;           ///< m
-};
 
 /// A box of grains. Along a direction that is not periodic, what lies on the hull of the grains is left out.
 struct SphereBox {
@@ -30,7 +26,8 @@ struct PackingConstrictions {
   std::vector<Constriction> constrictions;  ///< of one period of the box
   std::vector<double> pore_diameters;       ///< largest void sphere of each pore, m
   std::size_t cells = 0;                    ///< tetrahedra of the box
-  std::size_t closed = 0;                   ///< faces through which no disc passes (overlapping grains)
+  std::size_t closed =
+      0;  ///< faces in which no free disc has its centre: grains overlap, or one stands in the way
 };
 
 /// Constrictions of an actual packing (keys: reboul2010, shireosullivan2016): regular (weighted Delaunay)
