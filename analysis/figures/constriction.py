@@ -43,6 +43,7 @@ def draw_distribution(series, grading, output):
     axes.annotate("35 %", xy=(0, 35), xycoords=("axes fraction", "data"), xytext=(3, 2), textcoords="offset points", fontsize=8,
                   color=style.REFERENCE["color"])
     axes.set(xscale="log", xlabel="constriction or grain diameter (µm)", ylabel="finer (%)", ylim=(0, 100))
+    axes.xaxis.set_major_formatter("{x:g}")
     axes.grid(True, which="both")
     axes.legend(fontsize=7, loc="best")
     style.save(figure, output)
@@ -55,6 +56,9 @@ def draw_prediction(predictions, names, measured, output):
     figure, axes = pyplot.subplots(figsize=(style.COLUMN_WIDTH, 3.4))
     for series, name in zip(predictions, names):
         line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{name}, eqs 4.7, 4.8")
+        ends = [(series["coordination_number"][i], series["stress_reduction"][i]) for i in (0, -1)]
+        if max(abs(a - b) for a, b in zip(*ends)) < 0.3:  # no room for a name at either end
+            continue
         for index, text in ((0, "loosest"), (-1, "densest")):
             axes.annotate(text, xy=(series["coordination_number"][index], series["stress_reduction"][index]), xytext=(4, -9),
                           textcoords="offset points", fontsize=7, color=line.get_color())
@@ -69,7 +73,7 @@ def draw_prediction(predictions, names, measured, output):
                   ha="right", color=style.REFERENCE["color"])
     axes.axvspan(0, 1, color="#808080", alpha=0.10, linewidth=0)
     axes.fill_between([1, 7], 0, 0.5, color="#808080", alpha=0.10, linewidth=0)
-    axes.annotate("unstable", xy=(0.03, 0.04), xycoords="axes fraction", fontsize=8, color=style.REFERENCE["color"])
+    axes.annotate("unstable", xy=(0.03, 0.94), xycoords="axes fraction", fontsize=8, color=style.REFERENCE["color"])
     axes.set(xlabel="coordination number Z (−)", ylabel="stress reduction factor α (−)", xlim=(0, 6.5), ylim=(0, 2))
     axes.legend(fontsize=7, loc="lower right")
     style.save(figure, output)

@@ -35,6 +35,7 @@ def draw(curves, shapes, names, output):
     for series, name in zip(curves, names):
         draw_curve(axes[0, 0], series, name)
     axes[0, 0].set(xscale="log", xlabel="grain diameter d (mm)", ylabel="finer by mass (%)", ylim=(0, 100))
+    axes[0, 0].xaxis.set_major_formatter("{x:g}")
     axes[0, 0].grid(True, which="both")
     if len(curves) > 1:
         axes[0, 0].legend()
@@ -45,7 +46,7 @@ def draw(curves, shapes, names, output):
         limit = shapes[0]["limit_ratio"][0]
         widest = max(series["searched_to_percent"][0] for series in shapes)
         panel.plot([0, 100 / (1 + limit)], [0, 100 * limit / (1 + limit)], **style.REFERENCE)
-        panel.annotate(f"H = {limit:g} F", xy=(widest * 1.15, widest * 1.15 * limit), textcoords="offset points", xytext=(4, -9),
+        panel.annotate("H = F" if limit == 1 else f"H = {limit:g} F", xy=(widest * 1.15, widest * 1.15 * limit), textcoords="offset points", xytext=(4, -9),
                        fontsize=8, color=style.REFERENCE["color"])
         panel.axvline(widest, color=style.REFERENCE["color"], linewidth=0.6, linestyle=":")
         panel.annotate("searched", xy=(widest, 1), xycoords=("data", "axes fraction"), xytext=(-3, -3), textcoords="offset points",
