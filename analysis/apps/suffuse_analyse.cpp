@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "commands/contacts_command.h"
+#include "commands/rose_command.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "suffuse-analyse " SUFFUSE_VERSION);
   app.require_subcommand(1);
   suffuse::analysis::add_contacts(app);
+  suffuse::analysis::add_rose(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
     return 0;
