@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "commands/contacts_command.h"
+#include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
 #include "suffuse/common/error.h"
 
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   suffuse::analysis::add_contacts(app);
   suffuse::analysis::add_rose(app);
+  suffuse::analysis::add_reproduce(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
     return 0;
