@@ -7,6 +7,8 @@
 #include "commands/constriction_command.h"
 #include "commands/contacts_command.h"
 #include "commands/grading_command.h"
+#include "commands/reproduce_command.h"
+#include "commands/rose_command.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -30,6 +32,8 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_contacts(app);
   suffuse::analysis::add_grading(app);
   suffuse::analysis::add_constriction(app);
+  suffuse::analysis::add_rose(app);
+  suffuse::analysis::add_reproduce(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
     return 0;

@@ -88,7 +88,7 @@ void tell_settings(const Options& options, const Snapshot& first) {
   else
     fmt::print("no --split: all grains are coarse, no alpha");
   fmt::print("; friction {:.4g}; a contact slides where S >= 1 - {:.0e}\n", options.read.settings.friction,
-             options.measures.sliding_tolerance.value_or(first.six_digits ? 2e-5 : 1e-6));
+             sliding_tolerance(options.measures, first));
   std::fflush(stdout);
 }
 
@@ -155,7 +155,7 @@ void add_contacts(CLI::App& app) {
   command->add_option("--axis", options->axis, "axis of the deviatoric stress: x, y or z")
       ->capture_default_str();
   command->add_option("--sliding-tolerance", options->tolerance,
-                      "a contact slides where S >= 1 - T (default: 1e-6, for text of six digits 2e-5)");
+                      "a contact slides where S >= 1 - T (default: 1e-6, for text of six digits 1e-5)");
   command
       ->add_option("--rattler-contacts", options->measures.rattler_contacts,
                    "grains with fewer contacts are rattlers (2 with friction, 4 without)")

@@ -22,8 +22,8 @@ namespace {
 
 using namespace micromechanics;
 
-/// Text of six digits moves f_T and f_N by up to 5e-6 each.
-constexpr double kToleranceOfText = 2e-5;
+/// Text of six digits moves f_T and f_N by up to 5e-6 of themselves each.
+constexpr double kToleranceOfText = 1e-5;
 constexpr double kNarrowestGap = 1.3;
 
 void add(Record& record, std::initializer_list<Entry> entries) {
@@ -128,6 +128,11 @@ void add_fabric(Record& record, const Packing& packing) {
 
 }  // namespace
 
+double sliding_tolerance(const MeasureSettings& settings, const Snapshot& snapshot) {
+  return settings.sliding_tolerance.value_or(snapshot.six_digits ? kToleranceOfText
+                                                                 : SlidingRule().tolerance);
+}
+
 double ContactMeasurer::strong_threshold(double mean_force) {
   if (settings_.strong == StrongThreshold::force) return settings_.strong_force;
   if (settings_.strong == StrongThreshold::mean) return mean_force;
@@ -151,8 +156,7 @@ Record ContactMeasurer::measure(const Snapshot& snapshot) {
                {"rattler_solid_share", loose.solid_share}});
   add_stress(record, packing, settings_.axis);
   add_reduction(record, packing, settings_.split);
-  const double tolerance = snapshot.six_digits ? kToleranceOfText : SlidingRule().tolerance;
-  add_sliding(record, packing, z, settings_.sliding_tolerance.value_or(tolerance));
+  add_sliding(record, packing, z, sliding_tolerance(settings_, snapshot));
   add_fabric(record, packing);
   forces_ = force_distribution(packing, settings_.force_bins);
   const double threshold = strong_threshold(forces_.mean_normal);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/packing_builder.h"
 #include "suffuse/common/error.h"
 
@@ -23,6 +24,15 @@ Vec3 vector_at(std::span<const double> row, int first) {
   const auto at = static_cast<std::size_t>(first);
   return {row[at], row[at + 1], row[at + 2]};
 }
+
+/// Whether six digits hold a number.
+bool is_short(double value) {
+  double again = 0;
+  return parse_number(fmt::format("{:.6g}", value), again) && again == value;
+}
+
+/// Contacts that are looked at to tell how many digits a dump has.
+constexpr std::size_t kSampleOfDigits = 30;
 
 Vec3 period_of(const DumpHeader& header) {
   Vec3 period = Vec3::Zero();
@@ -126,7 +136,6 @@ void DumpSeries::read_grains(Packing& packing) {
   const Vec3 box = header.box_high - header.box_low;
   packing.volume = settings_.volume.value_or(box.prod());
   double largest = 0;
-  digits_ = 0;
   grains_.file().rows(plan.place_of_column, grain_place::count, [&](std::span<const double> row) {
     if (row[id] < 1 || row[id] != std::floor(row[id]))
       grains_.file().complain(fmt::format("id = {} is no identifier of a grain", row[id]),
@@ -210,12 +219,14 @@ void DumpSeries::read_contacts(Snapshot& snapshot) {
   need(plan.has[id1] && plan.has[id2], "identifiers of the two grains");
   need(plan.has_vector(fx) || (plan.has_vector(fnx) && plan.has_vector(ftx)), "force");
   need((plan.has_vector(x1) && plan.has_vector(x2)) || grains_have_positions_, "positions");
+  snapshot.six_digits = true;
   snapshot.packing.contacts.clear();
   snapshot.packing.contacts.reserve(static_cast<std::size_t>(header.rows));
   contacts_.file().rows(plan.place_of_column, contact_place::count, [&](std::span<const double> row) {
     snapshot.packing.contacts.push_back(contact_of(row, plan, snapshot.packing));
+    if (snapshot.packing.contacts.size() <= kSampleOfDigits)
+      snapshot.six_digits = snapshot.six_digits && is_short(row[plan.has[fx] ? fx : fnx]);
   });
-  snapshot.six_digits = true;
 }
 
 }  // namespace suffuse::analysis

@@ -53,9 +53,9 @@ std::vector<std::string> expanded(const std::vector<std::string>& patterns, cons
     glob_t found{};
     if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
       for (std::size_t k = 0; k < found.gl_pathc; ++k) paths.emplace_back(found.gl_pathv[k]);
+    const bool none = found.gl_pathc == 0;
     globfree(&found);
-    if (paths.empty())
-      throw_user_error({who, "files", pattern, "match a file", "check the folder and the pattern"});
+    if (none) throw_user_error({who, "files", pattern, "match a file", "check the folder and the pattern"});
   }
   return paths;
 }

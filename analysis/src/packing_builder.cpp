@@ -18,13 +18,40 @@ constexpr double kNearest = 0.3;
 /// How far the parts of a force may miss their sum: six digits each, with room for their signs.
 constexpr double kRoundedSum = 1e-4;
 
+/// A normal force lies along the branch, to the rounding of positions; a whole force within a cone of
+/// friction.
+constexpr double kAlong = 0.999;
+constexpr double kWithinFriction = 0.7;
+
+double alignment(const Vec3& branch, const Vec3& force) {
+  return std::abs(branch.dot(force)) / (branch.norm() * force.norm());
+}
+
+/// The branch to the nearest image of the second grain. In a box that is not many grains wide another image
+/// may be the one that touches: then the force tells which, as the only one that it is along.
+Vec3 branch_of(const RawContact& raw, double reach, const Vec3& period) {
+  Vec3 nearest = *raw.separation;
+  for (int axis = 0; axis < 3; ++axis)
+    if (period[axis] > 0) nearest[axis] -= period[axis] * std::round(nearest[axis] / period[axis]);
+  const Vec3& force = raw.normal_force ? *raw.normal_force : *raw.force;
+  const double enough = raw.normal_force ? kAlong : kWithinFriction;
+  if (force.norm() == 0 || period.norm() == 0 || alignment(nearest, force) > enough) return nearest;
+  Vec3 best = nearest;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const Vec3 image = nearest + Vec3(x, y, z).cwiseProduct(period);
+        if (image.norm() < kFarthest * reach && alignment(image, force) > alignment(best, force))
+          best = image;
+      }
+  return best;
+}
+
 }  // namespace
 
 std::string set_branch_and_force(const RawContact& raw, double reach, const Vec3& period, bool rounded,
                                  micromechanics::Contact& contact) {
-  Vec3 branch = *raw.separation;
-  for (int axis = 0; axis < 3; ++axis)
-    if (period[axis] > 0) branch[axis] -= period[axis] * std::round(branch[axis] / period[axis]);
+  Vec3 branch = branch_of(raw, reach, period);
   const double distance = branch.norm();
   if (distance > kFarthest * reach || distance < kNearest * reach)
     return fmt::format("its centres are {:.3g} m apart and the radii add up to {:.3g} m", distance, reach);

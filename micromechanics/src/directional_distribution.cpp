@@ -82,6 +82,14 @@ std::vector<double> PlaneDistribution::mean_tangential_force() const {
   return scaled(per_contact(tangential, contacts), mean > 0 ? 1 / mean : 0);
 }
 
+void PlaneDistribution::add(const PlaneDistribution& other) {
+  for (std::size_t bin = 0; bin < contacts.size(); ++bin) {
+    contacts[bin] += other.contacts[bin];
+    normal[bin] += other.normal[bin];
+    tangential[bin] += other.tangential[bin];
+  }
+}
+
 PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bins) {
   const std::array<int, 2> axes = kAxes[static_cast<std::size_t>(plane)];
   const int half = bins / 2;

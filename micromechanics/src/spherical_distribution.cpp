@@ -68,6 +68,13 @@ int SphericalGrid::find(const Vec3& direction) const {
   return first_[collar] + std::min(sector, count_[collar] - 1);
 }
 
+void SphericalDistribution::add(const SphericalDistribution& other) {
+  for (std::size_t cell = 0; cell < contacts.size(); ++cell) {
+    contacts[cell] += other.contacts[cell];
+    normal[cell] += other.normal[cell];
+  }
+}
+
 SphericalDistribution spherical_distribution(const Packing& packing, const SphericalGrid& grid) {
   const auto cells = static_cast<std::size_t>(grid.size());
   SphericalDistribution result{std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
@@ -96,14 +103,14 @@ double second_order_density(const Mat3& fabric, const Vec3& direction) {
   return (1 + 7.5 * (n.dot(fabric * n) - fabric.trace() / 3)) / (4 * kPi);
 }
 
-Mat3 normal_force_fabric(const Packing& packing) {
+Mat3 normal_force_moment(const Packing& packing) {
   Mat3 sum = Mat3::Zero();
   for (const Contact& contact : packing.contacts) {
     if (!contact.counted) continue;
     const Vec3 normal = contact.branch.normalized();
     sum += normal_force(contact) * normal * normal.transpose();
   }
-  return sum.trace() > 0 ? Mat3(sum / sum.trace()) : sum;
+  return sum;
 }
 
 }  // namespace suffuse::micromechanics

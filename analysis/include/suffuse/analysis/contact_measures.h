@@ -25,8 +25,8 @@ enum class StrongThreshold {
 
 struct MeasureSettings {
   std::optional<double> split;  ///< fines are smaller, m
-  /// A contact slides where S ≥ 1 − tolerance. Not given: 1e-6 as in the run, 2e-5 for text of six digits,
-  /// whose rounding moves S by up to 1e-5.
+  /// A contact slides where S ≥ 1 − tolerance. Not given: 1e-6 as in the run; 1e-5 for text of six digits,
+  /// whose rounding moves S by up to that.
   std::optional<double> sliding_tolerance;
   StrongThreshold strong = StrongThreshold::mean;
   double strong_force = 0;   ///< N
@@ -34,6 +34,9 @@ struct MeasureSettings {
   int rattler_contacts = 2;  ///< fewer: a rattler
   micromechanics::ForceBins force_bins;
 };
+
+/// The tolerance that a snapshot gets.
+double sliding_tolerance(const MeasureSettings& settings, const Snapshot& snapshot);
 
 /// Measures snapshots one after the other; keeps the frozen threshold. Formulas are those of micromechanics/.
 class ContactMeasurer {

@@ -16,7 +16,7 @@ struct Snapshot {
   std::int64_t step = 0;
   std::optional<double> time;  ///< s, where the file tells it
   micromechanics::Packing packing;
-  bool six_digits = false;  ///< from text of six digits or so: branches and forces are rounded
+  bool six_digits = false;  ///< from text of six digits, LIGGGHTS's default, so that forces are rounded
 };
 
 /// How files are read.

@@ -26,6 +26,8 @@ struct PlaneDistribution {
   std::vector<double> mean_normal_force() const;
   /// Mean signed tangential force of each bin over the same f₀.
   std::vector<double> mean_tangential_force() const;
+  /// Adds another packing's, with as many bins.
+  void add(const PlaneDistribution& other);
 };
 
 /// `bins`: even, ≥ 4.

@@ -36,6 +36,9 @@ class SphericalGrid {
 struct SphericalDistribution {
   std::vector<double> contacts;  ///< one value a cell
   std::vector<double> normal;    ///< Σ f_N, N
+
+  /// Adds another packing's, on the same grid.
+  void add(const SphericalDistribution& other);
 };
 
 SphericalDistribution spherical_distribution(const Packing& packing, const SphericalGrid& grid);
@@ -47,7 +50,7 @@ std::vector<double> spherical_density(const std::vector<double>& values, const S
 /// 1/sr. Also of force-weighted normals, with their own φ.
 double second_order_density(const Mat3& fabric, const Vec3& direction);
 
-/// (1/Σ f_N) Σ f_N n n over contacts; trace 1. Zero without forces.
-Mat3 normal_force_fabric(const Packing& packing);
+/// Σ f_N n n over contacts, N; over its trace it is the fabric of the force-weighted normals.
+Mat3 normal_force_moment(const Packing& packing);
 
 }  // namespace suffuse::micromechanics
