@@ -4,7 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 
+#include "commands/constriction_command.h"
 #include "commands/contacts_command.h"
+#include "commands/grading_command.h"
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
 #include "suffuse/common/error.h"
@@ -28,6 +30,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "suffuse-analyse " SUFFUSE_VERSION);
   app.require_subcommand(1);
   suffuse::analysis::add_contacts(app);
+  suffuse::analysis::add_grading(app);
+  suffuse::analysis::add_constriction(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
   try {

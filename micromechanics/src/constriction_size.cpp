@@ -172,7 +172,7 @@ SizeDistribution size_distribution(std::vector<std::pair<double, double>> weight
       own += weighted_sizes[i].second;
     if (own > 0) {
       result.diameters.push_back(size);
-      result.finer.push_back((below + own / 2) / total);
+      result.finer.push_back(std::min(1.0, (below + own / 2) / total));
       below += own;
     }
   }

@@ -1,8 +1,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <vector>
 
 #include "grading_samples.h"
+#include "suffuse/micromechanics/constriction_criteria.h"
 #include "suffuse/micromechanics/internal_stability.h"
 
 using namespace suffuse::micromechanics;
@@ -169,11 +173,19 @@ TEST_CASE("the thesis's Table 4.1: 11a from the bins of Appendix B") {
   CHECK(maximum_split_ratio(sample).ratio == Approx(6.620).epsilon(0.075));
 }
 
-TEST_CASE("every criterion has a source, a limit and a verdict") {
-  const auto results = grading_criteria(appendix("A"));
+TEST_CASE("every criterion has a limit, a verdict, and a source in the bibliography") {
+  std::ifstream file(SUFFUSE_REFERENCES);
+  const std::string bibliography{std::istreambuf_iterator<char>(file), {}};
+  ConstrictionOptions with_porosity;
+  with_porosity.porosity = 0.3;
+  auto results = grading_criteria(appendix("A"));
   CHECK(results.size() == 14);
+  for (const CriterionResult& more :
+       constriction_criteria(analyse_constrictions(appendix("A"), with_porosity), with_porosity))
+    results.push_back(more);
+  CHECK(results.size() == 14 + 8);
   for (const CriterionResult& result : results) {
-    CHECK_FALSE(result.source.empty());
+    CHECK_THAT(bibliography, Catch::Contains("{" + result.source + ","));
     CHECK_FALSE(result.limit.empty());
     CHECK((result.verdict == Verdict::not_applicable) == std::isnan(result.value));
   }
