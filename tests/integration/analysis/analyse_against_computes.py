@@ -10,6 +10,7 @@ import csv
 import gzip
 import math
 import os
+import shutil
 import sys
 import tempfile
 
@@ -137,6 +138,47 @@ def compare(suffuse, computed, what, files, tolerance):
     return worst
 
 
+def check_bad_hdf5(suffuse):
+    """HDF5 files that lack something or do not fit together are refused in one line; a volume stands in for a box."""
+    def refused(what, words, change):
+        path = suffuse.folder / "bad.h5"
+        shutil.copyfile(suffuse.folder / "exact.h5", path)
+        if callable(change):
+            with h5py.File(path, "r+") as file:
+                change(file[sorted(file)[1]])
+        else:
+            os.truncate(path, change)
+        code, _, err = suffuse.analyse("contacts", "bad.h5", "--output", "bad.csv")
+        check(code == 1 and len(err.strip().splitlines()) == 1 and all(word in err for word in words), f"{what}: exit code {code}, {err}")
+        check(not list(suffuse.folder.glob("bad.csv*")), f"{what}: results are left behind")
+
+    def without(name):
+        def change(step):
+            del step[name]
+        return change
+
+    def with_value(name, at, value):
+        def change(step):
+            step[name][at] = value
+        return change
+
+    refused("no box", ["bad.h5/step_", "no box", "--volume"], without("box"))
+    refused("no radius", ["grains/radius"], without("grains/radius"))
+    refused("no force", ["contacts/force"], without("contacts/force"))
+    refused("an unknown grain", ["grain 99999", "not there"], with_value("contacts/ids", (3, 1), 99999))
+    refused("a grain twice", ["twice"], with_value("grains/id", 0, 5))
+    refused("nan", ["contacts/force", "nan"], with_value("contacts/force", (0, 0), math.nan))
+    refused("other units", ["units"], with_value("grains/radius", 3, 0.5))
+    refused("a cut file", ["bad.h5"], 3000)
+    shutil.copyfile(suffuse.folder / "exact.h5", suffuse.folder / "free.h5")
+    with h5py.File(suffuse.folder / "free.h5", "r+") as file:
+        for step in file.values():
+            del step["box"], step["periodic"]
+    code, _, err = suffuse.analyse("contacts", "free.h5", "--volume", "1e-7")
+    # Without the box contacts across its faces look far apart: told, not counted wrongly.
+    check(code == 1 and "apart" in err, f"no period: exit code {code}, {err}")
+
+
 def main():
     with tempfile.TemporaryDirectory(prefix="suffuse-test-") as folder:
         suffuse = Suffuse(folder, __doc__)
@@ -157,6 +199,8 @@ def main():
                 file.write(gather(suffuse.folder, "pairs", steps))
             (suffuse.folder / "all.grains").write_text(gather(suffuse.folder, "grains", steps))
             compare(suffuse, computed, f"one gzip file, {ranks} ranks", ["all.pairs.gz", "all.grains"], None)
+            if ranks == 1:
+                check_bad_hdf5(suffuse)
             print(f"{ranks} ranks: largest difference to the run {exact:.1e} from HDF5, {text:.1e} from text of six digits")
 
 
