@@ -8,6 +8,7 @@ force_tangential` in six digits, of a periodic face-centred cubic packing of 4 c
 """
 import argparse
 import math
+import multiprocessing
 import os
 import pathlib
 import random
@@ -59,6 +60,23 @@ def write_series(path, text, snapshots):
             file.write(f"ITEM: TIMESTEP\n{1000 * step}\n{text}")
 
 
+def in_another_process(action, *arguments):
+    """Keeps this process small: the system counts the memory of a program's parent at its start into the program's peak."""
+    worker = multiprocessing.Process(target=action, args=arguments)
+    worker.start()
+    worker.join()
+    if worker.exitcode != 0:
+        sys.exit("the dumps could not be written")
+
+
+def write_files(files, cells, megabytes, share, told):
+    grains, contacts = snapshot(cells, random.Random(1))
+    count = max(4, round(megabytes * 1e6 / len(contacts))) // share
+    for path, text in zip(files, (grains, contacts)):
+        write_series(path, text, count)
+    told.value = count
+
+
 def timed(command):
     """Seconds of the processor and of the wall, and the peak memory in MB."""
     start = time.monotonic()
@@ -77,19 +95,17 @@ def main():
     parser.add_argument("--cells", type=int, default=18, help="unit cells along a side: 4 cells³ grains, 24 cells³ contacts")
     parser.add_argument("--least", type=float, help="fail below so many MB/s of processor time")
     options = parser.parse_args()
-    grains, contacts = snapshot(options.cells, random.Random(1))
-    count = max(4, round(options.megabytes * 1e6 / len(contacts)))
+    count = multiprocessing.Value("i", 0)
     with tempfile.TemporaryDirectory(prefix="suffuse-benchmark-") as folder:
         memory = {}
+        files = [pathlib.Path(folder) / name for name in ("grains.dump", "contacts.dump")]
         for share in (4, 1):
-            files = [pathlib.Path(folder) / name for name in ("grains.dump", "contacts.dump")]
-            for path, text in zip(files, (grains, contacts)):
-                write_series(path, text, count // share)
+            in_another_process(write_files, files, options.cells, options.megabytes, share, count)
             timed(["wc", "-l", *files])  # brings the files into the system's memory
             count_cpu, count_wall, _ = timed(["wc", "-l", *files])
             cpu, wall, memory[share] = timed([options.analyse, "contacts", *files, "--split", "0.5e-3", "--output", f"{folder}/series.csv"])
         megabytes = sum(path.stat().st_size for path in files) / 1e6
-    print(f"{count} snapshots of {24 * options.cells ** 3} contacts, {megabytes:.0f} MB")
+    print(f"{count.value} snapshots of {24 * options.cells ** 3} contacts, {megabytes:.0f} MB")
     print(f"suffuse-analyse contacts: {megabytes / cpu:.0f} MB/s of processor time ({megabytes / wall:.0f} MB/s by the clock)")
     print(f"wc -l: {megabytes / count_cpu:.0f} MB/s; ratio of the times {cpu / count_cpu:.1f}")
     print(f"memory: {memory[1]:.0f} MB; for a quarter of the snapshots {memory[4]:.0f} MB")

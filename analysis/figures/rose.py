@@ -43,7 +43,7 @@ def draw_rose(path, plane, output):
         angle, fit = fine_fit(series, name, unit)
         panel.plot(angle, abs(fit), color=style.COLOURS["vermilion"], linewidth=1.3)
         panel.set_title(title, pad=12)
-        panel.set_axisbelow(True)
+        panel.set_axisbelow(False)
         panel.yaxis.set_major_locator(style.plt.MaxNLocator(3))
         panel.set_rlabel_position(22.5)
         panel.tick_params(labelsize=6.5)

@@ -61,7 +61,8 @@ Hdf5Series::Hdf5Series(std::string path, ReadSettings settings)
   }
   if (steps.empty())
     complain("no group step_N has both grains and contacts",
-             "see the layout in docs/analysis/suffuse-analyse.md");
+             "`lbm output` has the grains only: dump both with LIGGGHTS's dump, or add contacts as in "
+             "docs/analysis/suffuse-analyse.md");
   std::sort(steps.begin(), steps.end());
   for (const auto& [step, group] : steps) groups_.push_back(group);
 }
