@@ -39,7 +39,8 @@ Resistance film_resistance(const Film& film, double first_radius, double second_
   const double h = std::max(gap, film.inner);
   const double curvature = 1 / first_radius + 1 / second_radius;
   const double radius = 1 / curvature;
-  const double first_share = radius / first_radius, second_share = radius / second_radius;  // they add up to 1
+  const double first_share = radius / first_radius,
+               second_share = radius / second_radius;  // they add up to 1
   const double logarithm = std::log(film.outer / h);
   const double unit = std::numbers::pi * film.viscosity * radius;
   Resistance k;
@@ -60,8 +61,8 @@ PairLoads film_loads(const Film& film, const Body& first, const Body& second, co
 
   const Vec3 relative = second.velocity - first.velocity;
   const double approach = relative.dot(normal);
-  const Vec3 slip =
-      relative - approach * normal - (l.first * first.angular_velocity + l.second * second_spin).cross(normal);
+  const Vec3 slip = relative - approach * normal -
+                    (l.first * first.angular_velocity + l.second * second_spin).cross(normal);
   const Vec3 rolling = (first.angular_velocity - second_spin).cross(normal);
 
   const double squeeze_factor = bound(k.squeeze * (first.inverse_mass + second.inverse_mass), time_step);

@@ -41,16 +41,16 @@ struct Resistance {
 Resistance film_resistance(const Film& film, double first_radius, double second_radius, double gap);
 
 struct Body {
-  double radius = 0;            ///< m; infinite: a plane, whose angular velocity is not looked at
-  double inverse_mass = 0;      ///< 1/kg, for the bound below; 0: held
-  double inverse_moment = 0;    ///< 1/(kg m²)
+  double radius = 0;                     ///< m; infinite: a plane, whose angular velocity is not looked at
+  double inverse_mass = 0;               ///< 1/kg, for the bound below; 0: held
+  double inverse_moment = 0;             ///< 1/(kg m²)
   Vec3 velocity = Vec3::Zero();          ///< of the centre, m/s; of a plane: of its surface
   Vec3 angular_velocity = Vec3::Zero();  ///< 1/s
 };
 
 /// All zero when the gap is `outer` or more.
 struct PairLoads {
-  Vec3 force_on_first = Vec3::Zero();  ///< N; on the second: its negative
+  Vec3 force_on_first = Vec3::Zero();   ///< N; on the second: its negative
   Vec3 torque_on_first = Vec3::Zero();  ///< N m, about the centre
   Vec3 torque_on_second = Vec3::Zero();
   double power = 0;      ///< dissipated, W; never negative

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPlane = std::numeric_limits<double>::infinity();
-constexpr double kShortStep = 0;  // no bound acts
+constexpr double kShortStep = 0;                               // no bound acts
 const Vec3 kNormal(0, 0, 1), kAlong(1, 0, 0), kAxis(0, 1, 0);  // kAxis × kNormal = kAlong
 
 Film film_of(double outer, double inner = 1e-12) {
@@ -127,7 +127,8 @@ TEST_CASE("the squeeze force at a plane follows Brenner's series up to the logar
     const double unit = 6 * kPi * film.viscosity * a;
     const double ours = film_resistance(film, a, kPlane, ratio * a).squeeze / unit;
     const double exact = brenner_factor(ratio) - brenner_factor(outer / a);
-    // The series is a/h + 1/5 ln(a/h) + 0.9713 + O(h/a ln(a/h)); the last term is the larger the wider the gap.
+    // The series is a/h + 1/5 ln(a/h) + 0.9713 + O(h/a ln(a/h)); the last term is the larger the wider the
+    // gap.
     const double rest_at_outer = brenner_factor(0.13) - (1 / 0.13 - 0.2 * std::log(0.13) + 0.9713);
     CHECK(std::abs(rest_at_outer) < 0.04);
     CHECK(exact - ours == Approx(0.2 * std::log(outer / (ratio * a))).margin(std::abs(rest_at_outer) + 1e-3));
@@ -164,8 +165,8 @@ TEST_CASE("a rigid motion of the pair costs nothing, all else costs power and ke
     // On the scale of the loads that its parts alone would bring.
     const auto k = film_resistance(film, a1, a2, gap);
     const double force_scale = (k.squeeze + k.slide) * 100 * arm.norm() + k.couple * 100;
-    const auto rigid = film_loads(film, moving(a1, v, spin), moving(a2, v + spin.cross(arm), spin), normal, gap,
-                                  kShortStep);
+    const auto rigid =
+        film_loads(film, moving(a1, v, spin), moving(a2, v + spin.cross(arm), spin), normal, gap, kShortStep);
     CHECK(rigid.force_on_first.norm() <= 1e-13 * force_scale);
     CHECK(rigid.torque_on_first.norm() <= 1e-13 * force_scale * arm.norm());
     CHECK(rigid.torque_on_second.norm() <= 1e-13 * force_scale * arm.norm());
@@ -196,15 +197,18 @@ TEST_CASE("a plane is the limit of a large sphere") {
   const double a = 0.5e-3, gap = 3e-6;
   const Film film = film_of(0.1e-3, 1e-6);
   const Body sphere = moving(a, Vec3(0.1, -0.05, 0.02), Vec3(20, -30, 40));
-  const auto plane = film_loads(film, sphere, moving(kPlane, Vec3(0.03, 0, 0), Vec3::Zero()), kNormal, gap, 0);
-  const auto large = film_loads(film, sphere, moving(1e6 * a, Vec3(0.03, 0, 0), Vec3::Zero()), kNormal, gap, 0);
+  const auto plane =
+      film_loads(film, sphere, moving(kPlane, Vec3(0.03, 0, 0), Vec3::Zero()), kNormal, gap, 0);
+  const auto large =
+      film_loads(film, sphere, moving(1e6 * a, Vec3(0.03, 0, 0), Vec3::Zero()), kNormal, gap, 0);
   // Shares of the radii differ by 1e-6.
   CHECK((plane.force_on_first - large.force_on_first).norm() < 5e-6 * plane.force_on_first.norm());
   CHECK((plane.torque_on_first - large.torque_on_first).norm() < 5e-6 * plane.torque_on_first.norm());
   CHECK(plane.torque_on_second.norm() == 0);
 }
 
-TEST_CASE("loads vanish from the outer gap on without a jump, and stay at their value at the inner gap below it") {
+TEST_CASE(
+    "loads vanish from the outer gap on without a jump, and stay at their value at the inner gap below it") {
   const Film film = film_of(0.1e-3, 1e-6);
   const Body first = moving(0.5e-3, Vec3(0.1, 0.2, 0.3), Vec3(10, 20, 30)), second = resting(0.3e-3);
   const auto at = [&](double gap) { return film_loads(film, first, second, kNormal, gap, kShortStep); };
