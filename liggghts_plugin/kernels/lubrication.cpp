@@ -16,20 +16,23 @@ Levers levers(const Body& first, const Body& second, double gap) {
   return {first.radius + 0.5 * gap, std::isfinite(second.radius) ? second.radius + 0.5 * gap : 0};
 }
 
-/// Largest eigenvalue of (resistance × inverse inertia) of the motions (u, w) in one tangential direction.
-double fastest_tangential_rate(const Resistance& k, const Levers& l, const Body& first, const Body& second) {
+/// Factor that brings a rate (1/s) down to one per time step.
+double bound(double rate, double time_step) {
+  return rate * time_step > 1 ? 1 / (rate * time_step) : 1;
+}
+
+/// Factor that brings the largest eigenvalue of (resistance × inverse inertia) of the motions (u, w) in one
+/// tangential direction down to one per time step.
+double tangential_bound(const Resistance& k, const Levers& l, const Body& first, const Body& second,
+                        double time_step) {
   const double uu = first.inverse_mass + second.inverse_mass + l.first * l.first * first.inverse_moment +
                     l.second * l.second * second.inverse_moment;
   const double uw = l.second * second.inverse_moment - l.first * first.inverse_moment;
   const double ww = first.inverse_moment + second.inverse_moment;
   const double trace = k.slide * uu + 2 * k.couple * uw + k.roll * ww;
+  if (trace * time_step <= 1) return 1;  // no eigenvalue is larger than their sum
   const double determinant = (k.slide * k.roll - k.couple * k.couple) * (uu * ww - uw * uw);
-  return 0.5 * (trace + std::sqrt(std::max(0.0, trace * trace - 4 * determinant)));
-}
-
-/// Factor that brings a rate (1/s) down to one per time step.
-double bound(double rate, double time_step) {
-  return rate * time_step > 1 ? 1 / (rate * time_step) : 1;
+  return bound(0.5 * (trace + std::sqrt(std::max(0.0, trace * trace - 4 * determinant))), time_step);
 }
 
 }  // namespace
@@ -37,14 +40,15 @@ double bound(double rate, double time_step) {
 Resistance film_resistance(const Film& film, double first_radius, double second_radius, double gap) {
   if (gap >= film.outer) return {};
   const double h = std::max(gap, film.inner);
-  const double curvature = 1 / first_radius + 1 / second_radius;
-  const double radius = 1 / curvature;
-  const double first_share = radius / first_radius,
-               second_share = radius / second_radius;  // they add up to 1
-  const double logarithm = std::log(film.outer / h);
+  const double second_share =
+      std::isinf(second_radius) ? 0 : first_radius / (first_radius + second_radius);  // R/a₂
+  const double first_share = 1 - second_share;                                        // R/a₁
+  const double radius = first_radius * first_share;
+  const double inverse_gap = 1 / h;
+  const double logarithm = std::log(film.outer * inverse_gap);
   const double unit = std::numbers::pi * film.viscosity * radius;
   Resistance k;
-  k.squeeze = 6 * unit * radius * (1 / h - 1 / film.outer);
+  k.squeeze = 6 * unit * radius * (inverse_gap - 1 / film.outer);
   k.slide = 8. / 5 * unit * (2 - 3 * first_share * second_share) * logarithm;
   k.couple = 12. / 5 * unit * radius * (first_share - second_share) * logarithm;
   k.roll = 24. / 5 * unit * radius * radius * logarithm;
@@ -66,7 +70,7 @@ PairLoads film_loads(const Film& film, const Body& first, const Body& second, co
   const Vec3 rolling = (first.angular_velocity - second_spin).cross(normal);
 
   const double squeeze_factor = bound(k.squeeze * (first.inverse_mass + second.inverse_mass), time_step);
-  const double shear_factor = bound(fastest_tangential_rate(k, l, first, second), time_step);
+  const double shear_factor = tangential_bound(k, l, first, second, time_step);
   const double squeeze = squeeze_factor * k.squeeze * approach;
   const Vec3 drag = shear_factor * (k.slide * slip + k.couple * rolling);
   const Vec3 couple = shear_factor * (k.couple * slip + k.roll * rolling);

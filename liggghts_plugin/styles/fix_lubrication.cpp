@@ -27,7 +27,7 @@ using suffuse::lubrication::PairLoads;
 namespace {
 
 constexpr const char* kWho = "fix lubrication";
-constexpr const char* kKeywords = "viscosity, outer, inner, density, walls";
+constexpr const char* kKeywords = "viscosity, outer, inner, density, every, walls";
 
 Vec3 vec(const double* values) {
   return Vec3(values[0], values[1], values[2]);
@@ -82,6 +82,8 @@ FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
       film_.inner = reader.positive("inner");
     else if (reader.accept("density"))
       density_ = reader.positive("density");
+    else if (reader.accept("every"))
+      every_ = static_cast<int>(std::min<std::int64_t>(reader.positive_integer("every"), 1000000));
     else if (reader.accept("walls"))
       read_walls(reader, walls_);
     else
@@ -117,12 +119,20 @@ FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
 }
 
 std::vector<std::string> FixLubrication::words(const std::string& id, const std::string& group,
-                                               const suffuse::lubrication::Film& film,
+                                               const suffuse::lubrication::Film& film, int every,
                                                const std::vector<Plane>& walls) {
   const auto text = [](double value) { return fmt::format("{}", value); };
-  std::vector<std::string> words{
-      id,      group,           "lubrication", "viscosity", text(film.viscosity), "outer", text(film.outer),
-      "inner", text(film.inner)};
+  std::vector<std::string> words{id,
+                                 group,
+                                 "lubrication",
+                                 "viscosity",
+                                 text(film.viscosity),
+                                 "outer",
+                                 text(film.outer),
+                                 "inner",
+                                 text(film.inner),
+                                 "every",
+                                 std::to_string(every)};
   if (!walls.empty()) words.push_back("walls");
   for (const Plane& wall : walls) {
     words.push_back(kPlaneWords[wall.axis]);
@@ -158,6 +168,7 @@ void FixLubrication::init() {
 
 void FixLubrication::setup(int) {
   count_films();
+  age_ = every_;
   post_force(0);
 }
 
@@ -205,22 +216,39 @@ void FixLubrication::count_films() {
   });
   for_each_wall(range, [&](int i, const Vec3&, double) { ++films_[static_cast<std::size_t>(i)]; });
   comm->forward_comm_fix(this);
+  shares_.resize(films_.size());
+  for (std::size_t i = 0; i < films_.size(); ++i) {
+    const double inverse_mass = std::max(1., films_[i]) / atom->rmass[i];
+    shares_[i] = {inverse_mass, inverse_mass / (0.4 * atom->radius[i] * atom->radius[i])};
+  }
 }
 
 Body FixLubrication::body(int i) const {
-  Body body;
-  const double films = std::max(1., films_[static_cast<std::size_t>(i)]);
-  body.radius = atom->radius[i];
-  body.inverse_mass = films / atom->rmass[i];
-  body.inverse_moment = body.inverse_mass / (0.4 * body.radius * body.radius);
-  body.velocity = vec(atom->v[i]);
-  body.angular_velocity = vec(atom->omega[i]);
-  return body;
+  const Share& share = shares_[static_cast<std::size_t>(i)];
+  return {atom->radius[i], share.inverse_mass, share.inverse_moment, vec(atom->v[i]), vec(atom->omega[i])};
 }
 
 void FixLubrication::post_force(int) {
-  if (neighbor->ago == 0) count_films();
+  if (neighbor->ago == 0) {
+    count_films();
+    age_ = every_;  // grains may have another index
+  }
+  if (age_ >= every_) evaluate();
+  ++age_;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    const double* load = held_.data() + 6 * i;
+    for (int a = 0; a < 3; ++a) {
+      atom->f[i][a] += load[a];
+      atom->torque[i][a] += load[3 + a];
+    }
+  }
+}
+
+void FixLubrication::evaluate() {
   now_ = {};
+  age_ = 0;
+  held_.assign(static_cast<std::size_t>(6 * atom->nlocal), 0);
   add_pairs();
   add_walls();
   since_run_.films += now_.films;
@@ -228,16 +256,17 @@ void FixLubrication::post_force(int) {
 }
 
 void FixLubrication::add(int i, const Vec3& f, const Vec3& torque) {
+  double* load = held_.data() + 6 * i;
   for (int a = 0; a < 3; ++a) {
-    atom->f[i][a] += f[a];
-    atom->torque[i][a] += torque[a];
+    load[a] += f[a];
+    load[3 + a] += torque[a];
   }
 }
 
 void FixLubrication::add_pairs() {
   for_each_pair(film_.outer, [&](int i, int j, const Vec3& normal, double gap) {
     const Body first = body(i), second = body(j);
-    const PairLoads loads = film_loads(film_, first, second, normal, gap, update->dt);
+    const PairLoads loads = film_loads(film_, first, second, normal, gap, every_ * update->dt);
     const bool owned = j < atom->nlocal;  // otherwise the owner of j lists the pair as well
     add(i, loads.force_on_first, loads.torque_on_first);
     if (owned) add(j, -loads.force_on_first, loads.torque_on_second);
@@ -250,7 +279,7 @@ void FixLubrication::add_walls() {
     const Body grain = body(i);
     Body plane;
     plane.radius = std::numeric_limits<double>::infinity();
-    const PairLoads loads = film_loads(film_, grain, plane, normal, gap, update->dt);
+    const PairLoads loads = film_loads(film_, grain, plane, normal, gap, every_ * update->dt);
     add(i, loads.force_on_first, loads.torque_on_first);
     tally(loads, -grain.velocity.dot(normal), gap, 1);
   });
@@ -279,7 +308,7 @@ double FixLubrication::compute_vector(int n) {
 }
 
 double FixLubrication::memory_usage() {
-  return static_cast<double>(films_.capacity()) * sizeof(double);
+  return static_cast<double>(films_.capacity()) * (7 * sizeof(double) + sizeof(Share));
 }
 
 int FixLubrication::pack_comm(int n, int* list, double* buffer, int, int*) {

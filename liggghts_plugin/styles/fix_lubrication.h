@@ -19,9 +19,10 @@ namespace LAMMPS_NS {
 
 class PairGran;
 
-/// fix ID group lubrication viscosity MU outer H inner H [density RHO] [walls xplane X ...]: adds the
-/// forces of the viscous films between grains of the group, and between them and planes at rest, whose gap is
-/// smaller than `outer`. Reference page: docs/reference/fix_lubrication.md; physics: kernels/lubrication.h.
+/// fix ID group lubrication viscosity MU outer H inner H [density RHO] [every N] [walls xplane X ...]:
+/// adds the forces of the viscous films between grains of the group, and between them and planes at rest,
+/// whose gap is smaller than `outer`. Reference page: docs/reference/fix_lubrication.md; physics:
+/// kernels/lubrication.h.
 class FixLubrication : public Fix {
  public:
   FixLubrication(LAMMPS* lmp, int narg, char** arg);
@@ -34,7 +35,7 @@ class FixLubrication : public Fix {
 
   /// The words of a `fix` line, after `fix`, for who adds this fix from a program.
   static std::vector<std::string> words(const std::string& id, const std::string& group,
-                                        const suffuse::lubrication::Film& film,
+                                        const suffuse::lubrication::Film& film, int every = 1,
                                         const std::vector<Plane>& walls = {});
 
   int setmask() override;
@@ -56,6 +57,7 @@ class FixLubrication : public Fix {
   double required_distance_factor(double smallest_radius) const;
   void count_films();
   void add(int i, const suffuse::Vec3& force, const suffuse::Vec3& torque);
+  void evaluate();
   void add_pairs();
   void add_walls();
   void tally(const suffuse::lubrication::PairLoads& loads, double approach, double gap, double weight);
@@ -70,9 +72,16 @@ class FixLubrication : public Fix {
 
   suffuse::lubrication::Film film_;
   double density_ = 0;
+  int every_ = 1;
   PairGran* pair_ = nullptr;
   std::vector<Plane> walls_;
   std::vector<double> films_;  // an upper bound of the films of each grain until the next neighbour list
+  struct Share {
+    double inverse_mass, inverse_moment;  // of a film's share of its grain
+  };
+  std::vector<Share> shares_;  // of owned and ghost grains, from films_
+  std::vector<double> held_;   // force and torque of each owned grain
+  int age_ = 0;                // steps that they have been added
   Tally now_, since_run_;
 };
 
