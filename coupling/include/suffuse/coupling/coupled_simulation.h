@@ -24,7 +24,8 @@ class CoupledSimulation {
   CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                     const Vec3& origin, ParticlePort& grains);
 
-  /// One fluid step and the DEM steps that belong to it. Collective.
+  /// One fluid step and the DEM steps that belong to it. A UserError if the fluid's forces are no numbers any
+  /// more. Collective.
   void step();
 
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
@@ -48,6 +49,9 @@ class CoupledSimulation {
   void set_substeps(int substeps);
   double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
 
+  /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
+  double overlap() const;
+
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
   CoupledTimes& times() { return times_; }
@@ -61,6 +65,7 @@ class CoupledSimulation {
  private:
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
+  void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
   lbm::Units units_;
