@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "domain.h"
@@ -134,6 +135,9 @@ void LbmCommand::restart(ArgumentReader& reader) {
   const std::string file = reader.word("file");
   if (mode == "read") {
     refuse_after_start("restart read");
+    if (!std::filesystem::is_regular_file(file))
+      throw_user_error(
+          {reader.who(), "file", file, "be a state that `lbm restart write` saved", "check the path"});
     state_to_read_ = file;
   } else if (mode == "write") {
     if (reader.accept("every")) {

@@ -4,7 +4,6 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <set>
 
 #include "suffuse/common/progress.h"
 
@@ -44,6 +43,28 @@ std::string grains_text(const LiggghtsPort::Summary& grains, double spacing) {
                      grains.sauter_diameter / spacing);
 }
 
+/// Axis across which two different pressures, or a pressure and a velocity, are given; none: -1.
+int driven_axis(const lbm::FaceConditions& faces) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t side : {2 * axis, 2 * axis + 1})
+      if (faces[side].kind == lbm::FaceKind::pressure) return static_cast<int>(axis);
+  return -1;
+}
+
+/// Thinner than this there is no bed.
+constexpr double kBedPacking = 0.3;
+
+std::string bed_text(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains) {
+  const int axis = driven_axis(simulation.fluid().settings().faces);
+  if (grains.packing < kBedPacking || axis < 0) return "";
+  const double time = pressure_diffusion_time(grains.extent[axis], 1 - grains.packing, grains.sauter_diameter,
+                                              simulation.units());
+  return fmt::format(
+      "bed         {:.4g} m, porosity {:.3g}: pressure spreads through it in about {:.2g} s; change boundary "
+      "values over several times that",
+      grains.extent[axis], 1 - grains.packing, time);
+}
+
 }  // namespace
 
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
@@ -61,6 +82,7 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   lines.push_back("            " + units.summary());
   lines.push_back("faces       " + faces_text(fluid.settings().faces));
   lines.push_back("grains      " + grains_text(grains, units.spacing()));
+  if (const std::string bed = bed_text(simulation, grains); !bed.empty()) lines.push_back(bed);
   if (grains.grains > 0) lines.push_back("solids      " + solids_text(simulation.settings().solids));
   lines.push_back(fmt::format("coupling    {} DEM steps of {:.4g} s a fluid step{}", simulation.substeps(),
                               units.time_step() / simulation.substeps(),

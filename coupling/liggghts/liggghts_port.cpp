@@ -60,6 +60,7 @@ LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
 GrainArrays LiggghtsPort::grains() {
   const auto* atom = lmp_->atom;
   fix_ = find_force_fix(lmp_);
+  keep_memory();
   fix_->update_ghost_velocities();
   GrainArrays arrays;
   all_grains_ = fix_->igroup == 0;
@@ -74,6 +75,7 @@ GrainArrays LiggghtsPort::grains() {
     arrays.radius = atom->radius;
     arrays.mass = atom->rmass;
     arrays.id = atom->tag;
+    arrays.coefficient = fix_->history() + history::coefficient;
     return arrays;
   }
   local_.clear();
@@ -88,6 +90,7 @@ GrainArrays LiggghtsPort::grains() {
   radius_.clear();
   mass_.clear();
   id_.clear();
+  coefficient_.clear();
   for (const int i : local_) {
     position_.insert(position_.end(), atom->x[i], atom->x[i] + 3);
     velocity_.insert(velocity_.end(), atom->v[i], atom->v[i] + 3);
@@ -95,6 +98,7 @@ GrainArrays LiggghtsPort::grains() {
     radius_.push_back(atom->radius[i]);
     mass_.push_back(atom->rmass[i]);
     id_.push_back(atom->tag[i]);
+    coefficient_.push_back(fix_->history()[kHistoryLength * i + history::coefficient]);
   }
   arrays.position = position_.data();
   arrays.velocity = velocity_.data();
@@ -102,6 +106,8 @@ GrainArrays LiggghtsPort::grains() {
   arrays.radius = radius_.data();
   arrays.mass = mass_.data();
   arrays.id = id_.data();
+  arrays.coefficient = coefficient_.data();
+  arrays.coefficient_stride = 1;
   return arrays;
 }
 
@@ -129,7 +135,7 @@ void LiggghtsPort::sum_over_copies(std::vector<double>& force, std::vector<doubl
 GrainMemory LiggghtsPort::memory() {
   if (lmp_->atom->nlocal == 0) return {};
   if (all_grains_) return {fix_->load(), fix_->history()};
-  load_.clear();
+  keep_memory();
   history_.clear();
   for (const int i : local_) {
     if (i >= lmp_->atom->nlocal) break;
@@ -162,18 +168,20 @@ void LiggghtsPort::set_time_step(double step) {
   for (int i = 0; i < lmp_->modify->nfix; ++i) lmp_->modify->fix[i]->reset_dt();
 }
 
+/// With a part of the grains: writes what was put in memory() back to the fix.
+void LiggghtsPort::keep_memory() {
+  for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
+    std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
+                fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
+    std::copy_n(&history_[kHistoryLength * n], kHistoryLength, fix_->history() + kHistoryLength * local_[n]);
+  }
+  load_.clear();
+}
+
 /// Grains that nothing moves leave nothing to integrate: then only the clock of LIGGGHTS goes on, and its
 /// steps run where an output is due.
 void LiggghtsPort::advance(int substeps) {
-  if (!all_grains_ && !load_.empty()) {
-    for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
-      std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
-                  fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
-      std::copy_n(&history_[kHistoryLength * n], kHistoryLength,
-                  fix_->history() + kHistoryLength * local_[n]);
-    }
-    load_.clear();
-  }
+  keep_memory();
   if (!reads_loads(substeps)) {
     lmp_->update->ntimestep += substeps;
     return;
@@ -329,12 +337,9 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   summary.largest_density = extremes.density;
   summary.kinetic_energy = sums.energy;
   summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
-  double box = 1;
-  for (int a = 0; a < 3; ++a) {
-    const double extent = extremes.high[a] + extremes.minus_low[a];
-    box *= std::min(extent, lmp_->domain->prd[a]);
-  }
-  summary.packing = sums.volume / box;
+  for (int a = 0; a < 3; ++a)
+    summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  summary.packing = sums.volume / summary.extent.prod();
   return summary;
 }
 

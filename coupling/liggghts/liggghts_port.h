@@ -75,9 +75,10 @@ class LiggghtsPort final : public ParticlePort {
     double sauter_diameter = 0;                        ///< sum d^3/sum d^2, m
     double smallest_density = 0, largest_density = 0;  ///< kg/m^3
     double solid_volume = 0;                           ///< m^3
-    double packing = 0;         ///< solid volume over that of the box around all grains
-    double kinetic_energy = 0;  ///< J
-    Vec3 load = Vec3::Zero();   ///< sum of the fluid's forces, N
+    Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
+    double packing = 0;                                ///< solid volume over that of this box
+    double kinetic_energy = 0;                         ///< J
+    Vec3 load = Vec3::Zero();                          ///< sum of the fluid's forces, N
   };
   Summary summary() const;
 
@@ -92,6 +93,8 @@ class LiggghtsPort final : public ParticlePort {
   Vec3 mean_load(int groupbit) const;
 
  private:
+  void keep_memory();
+
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
   bool running_ = false;
@@ -99,7 +102,7 @@ class LiggghtsPort final : public ParticlePort {
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
   std::vector<int> id_;
 };
 

@@ -20,6 +20,18 @@ lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Un
   return fluid;
 }
 
+CoupledSettings with_coefficients(CoupledSettings settings) {
+  SolidSettings& solids = settings.solids;
+  solids.automatic_coefficient &= solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  solids.cells.own_coefficients |= solids.automatic_coefficient;
+  return settings;
+}
+
+CoefficientLaw law_of(const SolidSettings& solids) {
+  if (!solids.automatic_coefficient) return {};
+  return solids.law ? *solids.law : coefficient_law(solids.cells.solid_operator);
+}
+
 /// DEM steps a fluid step: as asked for, or as many as the grains' time step needs. The two clocks must agree
 /// to a part in a million, or forces would act for another time than the fluid's.
 int checked_substeps(int asked, const lbm::Units& units, double grain_step) {
@@ -53,13 +65,15 @@ Vec3 vector_at(const double* values, int n) {
 
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                                      const Vec3& origin, ParticlePort& grains)
-    : settings_(settings),
+    : settings_(with_coefficients(settings)),
       units_(settings.units),
       origin_(origin),
       grains_(grains),
       fluid_(fluid_settings(settings, units_), decomposition),
-      mapping_(settings.solids, fluid_.instruction_set(), fluid_.use_partial_solids(settings.solids.cells),
-               decomposition.local_box()),
+      cells_(fluid_.use_partial_solids(settings_.solids.cells)),
+      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box()),
+      pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
+      law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
   set_pressure_gradient(settings.pressure_gradient);
 }
@@ -76,6 +90,53 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
 void CoupledSimulation::map() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.mapping);
+  read_spheres(grains);
+  remapped_ = mapping_.update(spheres_);
+  if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
+  survey(grains);
+  read_spheres(grains_.grains());
+  remapped_ += mapping_.update(spheres_);
+}
+
+/// The same answer on all ranks.
+bool CoupledSimulation::survey_due(const GrainArrays& grains) const {
+  const SolidSettings& solids = settings_.solids;
+  const bool in_turn = fluid_.steps() % solids.survey_every == 0;
+  const double distance = solids.survey_distance * units_.spacing();
+  const GrainMemory memory = grains_.memory();
+  int due = 0;
+  for (int n = 0; n < grains.owned && due == 0; ++n) {
+    const double* h = memory.history + kHistoryLength * n;
+    const Vec3 moved = vector_at(grains.position, n) - Vec3(Eigen::Map<const Vec3>(h + history::surveyed_at));
+    if (h[history::coefficient] == 0 || (in_turn && moved.norm() > distance)) due = 1;
+  }
+  int any = 0;
+  MPI_Allreduce(&due, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  return any != 0;
+}
+
+/// Finds the coefficient of each owned grain from the pores that all ranks see around it.
+void CoupledSimulation::survey(const GrainArrays& grains) {
+  const std::vector<PoreSums> mine = pores_.sums(spheres_);
+  force_.assign(3 * mine.size(), 0);
+  torque_.assign(3 * mine.size(), 0);
+  for (std::size_t n = 0; n < mine.size(); ++n) {
+    force_[3 * n] = mine[n].volume;
+    force_[3 * n + 1] = mine[n].surface;
+  }
+  grains_.sum_over_copies(force_, torque_);
+  const GrainMemory memory = grains_.memory();
+  for (int n = 0; n < grains.owned; ++n) {
+    const double radius = grains.radius[n] / units_.spacing();
+    const double* sums = force_.data() + 3 * n;
+    double* h = memory.history + kHistoryLength * n;
+    h[history::coefficient] = law_(2 * radius, crowding_of({sums[0], sums[1]}, radius));
+    Eigen::Map<Vec3>(h + history::surveyed_at) = vector_at(grains.position, n);
+  }
+  ++surveys_;
+}
+
+void CoupledSimulation::read_spheres(const GrainArrays& grains) {
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
@@ -89,8 +150,10 @@ void CoupledSimulation::map() {
     sphere.radius = grains.radius[n] * length;
     sphere.id = grains.id[n];
     sphere.coefficient = settings_.solids.cells.coefficient;
+    if (!settings_.solids.automatic_coefficient) continue;
+    const double known = grains.coefficient[n * grains.coefficient_stride];
+    sphere.coefficient = known > 0 ? known : law_(2 * sphere.radius, 0);
   }
-  remapped_ = mapping_.update(spheres_);
 }
 
 /// Exchange of each sphere's cells on all ranks, summed at its owner, in SI.

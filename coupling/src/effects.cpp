@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace suffuse::coupling {
 
@@ -59,6 +60,14 @@ std::vector<EffectChoice> choose_effects(EffectSettings& effects, const SceneFac
   effects.buoyancy = switched(choices[2].on);
   effects.rotation = switched(choices[3].on);
   return choices;
+}
+
+double pressure_diffusion_time(double height, double porosity, double diameter, const lbm::Units& units) {
+  const double solid = 1 - porosity;
+  const double permeability = diameter * diameter * std::pow(porosity, 3) / (180 * solid * solid);
+  const double sound_squared = std::pow(units.velocity_to_si(1.), 2) / 3;
+  return height * height * units.viscosity_si() /
+         (std::numbers::pi * std::numbers::pi * permeability * sound_squared);
 }
 
 }  // namespace suffuse::coupling

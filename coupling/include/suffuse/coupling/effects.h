@@ -38,4 +38,10 @@ inline constexpr double kDryStokes = 1000, kTouchingPacking = 0.5;
 std::vector<EffectChoice> choose_effects(EffectSettings& effects, const SceneFacts& facts,
                                          const lbm::Units& units);
 
+/// How long a change of pressure at one end takes to spread through a bed, s: h^2 nu/(pi^2 k c_s^2), the
+/// slowest mode of the pressure's diffusion between two open ends. The lattice's fluid is compressible, c_s^2
+/// = (dx/dt)^2/3, and stores mass in all cells, those that grains cover included. k is Carman and Kozeny's
+/// d^2 n^3/(180 (1-n)^2) (docs key: carman1937). `height` and `diameter` (Sauter) in m.
+double pressure_diffusion_time(double height, double porosity, double diameter, const lbm::Units& units);
+
 }  // namespace suffuse::coupling
