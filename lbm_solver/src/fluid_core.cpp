@@ -85,7 +85,7 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 template <class T>
 void FluidCore<T>::sweep(Kernel<T> kernel) {
   KernelCall<T> call = kernel_call();
-  if (!patches_.has_near_rows()) {
+  if (!patches_.has_near_rows() && !halo_.has_near_rows()) {
     kernel(call);
     return;
   }
@@ -102,6 +102,7 @@ void FluidCore<T>::sweep(Kernel<T> kernel) {
       call.begin_y = y;
       call.end_y = std::min(y + rows, cells[1]);
       kernel(call);
+      halo_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
       patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
     }
 }

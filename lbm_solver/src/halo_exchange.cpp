@@ -96,10 +96,84 @@ void HaloExchange<T>::fold(Populations<T>& populations) {
 
 template <class T>
 void HaloExchange<T>::run_axis(Populations<T>& populations, int axis, bool folding) {
-  exchange(populations, axis, folding);
-  for (const bool high : {false, true})
-    if (partners_[static_cast<std::size_t>(face_at(axis, high))] == Partner::mirror)
+  const auto low = static_cast<std::size_t>(face_at(axis, false));
+  if (axis > 0 || partners_[low] != Partner::self) exchange(populations, axis, folding);
+  for (const bool high : {false, true}) {
+    const std::size_t face = low + (high ? 1 : 0);
+    if (axis == 0 && is_local(face))
+      copy_far_rows(populations, high, folding);
+    else if (partners_[face] == Partner::mirror)
       mirror(populations, axis, high, folding);
+  }
+}
+
+/// Cells of a sub-box's layers across x whose places for a direction are written by cells of the sub-box: all
+/// by an even step, by an odd one those whose neighbour against the direction is inside along y and z.
+template <class T>
+CellBox HaloExchange<T>::near_rows(const Index3& cells, int direction, bool folding) {
+  CellBox box{{0, 0, 0}, {1, cells[1], cells[2]}};
+  if (!folding) return box;
+  for (std::size_t a = 1; a < 3; ++a) {
+    box.lo[a] += std::max(0, kVelocity[direction][a]);
+    box.hi[a] += std::min(0, kVelocity[direction][a]);
+  }
+  return box;
+}
+
+/// One direction that leaves across x, in the given rows: what `fill` and `fold` copy for a local face.
+template <class T>
+void HaloExchange<T>::copy_rows(Populations<T>& populations, int direction, bool folding,
+                                const CellBox& rows) const {
+  const int cells = populations.cells()[0];
+  const bool high = kVelocity[direction][0] > 0;
+  const bool mirrors = partners_[high ? 1 : 0] == Partner::mirror;
+  T* ghost = populations.slot(direction) + (high ? cells : -1);
+  T* inside = mirrors ? populations.slot(reflected(direction, 0)) + (high ? cells - 1 : 0)
+                      : populations.slot(direction) + (high ? 0 : cells - 1);
+  const T* from = folding ? ghost : inside;
+  T* to = folding ? inside : ghost;
+  for (int z = rows.lo[2]; z < rows.hi[2]; ++z)
+    for (int y = rows.lo[1]; y < rows.hi[1]; ++y) {
+      const std::ptrdiff_t row = populations.index(0, y, z);
+      to[row] = from[row];
+    }
+}
+
+template <class T>
+void HaloExchange<T>::apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y,
+                                      int end_y, int z) const {
+  for (const bool high : {false, true}) {
+    if (!is_local(high ? 1 : 0)) continue;
+    for (const int i : leaving(0, high)) {
+      // An odd step has written the places one cell along the direction.
+      const int up = after_odd_step ? kVelocity[i][1] : 0, out = after_odd_step ? kVelocity[i][2] : 0;
+      CellBox rows = near_rows(populations.cells(), i, after_odd_step);
+      if (z + out < rows.lo[2] || z + out >= rows.hi[2]) continue;
+      rows.lo[2] = z + out;
+      rows.hi[2] = z + out + 1;
+      rows.lo[1] = std::max(rows.lo[1], begin_y + up);
+      rows.hi[1] = std::min(rows.hi[1], end_y + up);
+      copy_rows(populations, i, after_odd_step, rows);
+    }
+  }
+}
+
+/// The rows of a local face across x that apply_near_rows leaves: those beyond pressure faces, and what came
+/// in across y and z.
+template <class T>
+void HaloExchange<T>::copy_far_rows(Populations<T>& populations, bool high, bool folding) const {
+  const CellBox all = layer(populations.cells(), 0, 0);
+  for (const int i : leaving(0, high)) {
+    const CellBox near = near_rows(populations.cells(), i, folding);
+    CellBox below = all, above = all, before = near, behind = near;
+    below.hi[2] = near.lo[2];
+    above.lo[2] = near.hi[2];
+    before.lo[1] = all.lo[1];
+    before.hi[1] = near.lo[1];
+    behind.lo[1] = near.hi[1];
+    behind.hi[1] = all.hi[1];
+    for (const CellBox& rows : {below, above, before, behind}) copy_rows(populations, i, folding, rows);
+  }
 }
 
 template <class T>

@@ -16,6 +16,12 @@ namespace suffuse::lbm {
 /// after the other (x, y, z; folding in reverse) and each takes the ghost cells of the former along, so that
 /// populations crossing an edge arrive without messages of their own. Ghost cells beyond pressure faces have
 /// been filled before and go along too.
+///
+/// Across x, a periodic end on this rank and a plane of symmetry touch one value of a cache line in each row:
+/// swept by themselves, a quarter of a float step (docs/performance.md). `apply_near_rows` does them in rows
+/// begin_y <= y < end_y of plane z as soon as the kernel has been there, while the lines are still in the
+/// cache; `fill` and `fold` do what is left: what no cell of the sub-box wrote. Both copy each value from the
+/// same place to the same place, once.
 template <class T>
 class HaloExchange {
  public:
@@ -24,14 +30,23 @@ class HaloExchange {
   void fill(Populations<T>& populations);
   void fold(Populations<T>& populations);
 
+  bool has_near_rows() const { return is_local(0) || is_local(1); }
+  void apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y, int end_y, int z) const;
+
  private:
   enum class Partner { none, self, other, mirror };
 
   void run_axis(Populations<T>& populations, int axis, bool folding);
   void mirror(Populations<T>& populations, int axis, bool high, bool folding);
+  void copy_rows(Populations<T>& populations, int direction, bool folding, const CellBox& rows) const;
+  void copy_far_rows(Populations<T>& populations, bool high, bool folding) const;
   void exchange(Populations<T>& populations, int axis, bool folding);
 
+  bool is_local(std::size_t face) const {
+    return partners_[face] == Partner::self || partners_[face] == Partner::mirror;
+  }
   CellBox layer(const Index3& cells, int axis, int position) const;
+  static CellBox near_rows(const Index3& cells, int direction, bool folding);
 
   MPI_Comm communicator_;
   std::array<Partner, kFaces> partners_{};
