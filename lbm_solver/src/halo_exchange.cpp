@@ -97,7 +97,11 @@ void HaloExchange<T>::fold(Populations<T>& populations) {
 template <class T>
 void HaloExchange<T>::run_axis(Populations<T>& populations, int axis, bool folding) {
   const auto low = static_cast<std::size_t>(face_at(axis, false));
-  if (axis > 0 || partners_[low] != Partner::self) exchange(populations, axis, folding);
+  if (axis == 2 && started_)
+    finish(populations, axis, folding);
+  else if (axis > 0 || partners_[low] != Partner::self)
+    exchange(populations, axis, folding);
+  if (axis == 2) started_ = false;
   for (const bool high : {false, true}) {
     const std::size_t face = low + (high ? 1 : 0);
     if (axis == 0 && is_local(face))
@@ -199,9 +203,14 @@ void HaloExchange<T>::mirror(Populations<T>& populations, int axis, bool high, b
 
 template <class T>
 void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool folding) {
+  post(populations, axis, folding);
+  finish(populations, axis, folding);
+}
+
+template <class T>
+void HaloExchange<T>::post(Populations<T>& populations, int axis, bool folding) {
   const int cells = populations.cells()[static_cast<std::size_t>(axis)];
-  MPI_Request requests[4];
-  int pending = 0;
+  Messages& messages = messages_[static_cast<std::size_t>(axis)];
   // The ghost layer beyond a face and the first layer inside that face's neighbour are the same places of the
   // whole box, for the directions that leave through the face: filling copies inside -> ghost, folding ghost
   // -> inside.
@@ -212,7 +221,7 @@ void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool foldi
     const CellBox ghost = layer(populations.cells(), axis, high ? cells : -1);
     const CellBox inside = layer(populations.cells(), axis, high ? 0 : cells - 1);
     const std::size_t from = folding ? face : against, to = folding ? against : face;
-    std::vector<T>&out = send_[high], &in = receive_[high];
+    std::vector<T>&out = messages.send[high], &in = messages.receive[high];
     if (partners_[from] == Partner::other || partners_[from] == Partner::self)
       pack(populations, directions, folding ? ghost : inside, out);
     if (partners_[from] == Partner::self) {
@@ -222,19 +231,61 @@ void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool foldi
     if (partners_[to] == Partner::other) {
       in.resize(5 * ghost.volume());
       MPI_Irecv(in.data(), static_cast<int>(in.size()), mpi_type<T>(), neighbours_[to], 2 * axis + high,
-                communicator_, &requests[pending++]);
+                communicator_, &messages.requests[messages.pending++]);
     }
     if (partners_[from] == Partner::other)
       MPI_Isend(out.data(), static_cast<int>(out.size()), mpi_type<T>(), neighbours_[from], 2 * axis + high,
-                communicator_, &requests[pending++]);
+                communicator_, &messages.requests[messages.pending++]);
   }
-  MPI_Waitall(pending, requests, MPI_STATUSES_IGNORE);
+}
+
+template <class T>
+void HaloExchange<T>::finish(Populations<T>& populations, int axis, bool folding) {
+  const int cells = populations.cells()[static_cast<std::size_t>(axis)];
+  Messages& messages = messages_[static_cast<std::size_t>(axis)];
+  MPI_Waitall(messages.pending, messages.requests, MPI_STATUSES_IGNORE);
+  messages.pending = 0;
   for (const bool high : {false, true}) {
     const auto to = static_cast<std::size_t>(face_at(axis, folding ? !high : high));
     if (partners_[to] != Partner::other) continue;
     const CellBox box = folding ? layer(populations.cells(), axis, high ? 0 : cells - 1)
                                 : layer(populations.cells(), axis, high ? cells : -1);
-    unpack(populations, leaving(axis, high), box, receive_[high]);
+    unpack(populations, leaving(axis, high), box, messages.receive[high]);
+  }
+}
+
+template <class T>
+bool HaloExchange<T>::can_start_early() const {
+  bool z_alone = partners_[4] == Partner::other || partners_[5] == Partner::other;
+  for (std::size_t face = 0; face < 4; ++face)
+    z_alone &= partners_[face] != Partner::other && !pressure_[face];
+  return z_alone;
+}
+
+template <class T>
+void HaloExchange<T>::start_early(Populations<T>& populations, bool after_odd_step) {
+  const Index3& cells = populations.cells();
+  if (!after_odd_step)
+    for (const int z : {0, cells[2] - 1}) fill_rows_beyond_y(populations, z);
+  post(populations, 2, after_odd_step);
+  started_ = true;
+}
+
+/// Local faces across y, in one plane: what run_axis would do for it, and does again with the others.
+template <class T>
+void HaloExchange<T>::fill_rows_beyond_y(Populations<T>& populations, int z) const {
+  const int cells = populations.cells()[1];
+  for (const bool high : {false, true}) {
+    const std::size_t face = high ? 3 : 2;
+    if (!is_local(face)) continue;
+    const bool mirrors = partners_[face] == Partner::mirror;
+    for (const int i : leaving(1, high)) {
+      const T* inside =
+          mirrors ? populations.slot(reflected(i, 1)) + populations.index(-1, high ? cells - 1 : 0, z)
+                  : populations.slot(i) + populations.index(-1, high ? 0 : cells - 1, z);
+      std::copy_n(inside, populations.cells()[0] + 2,
+                  populations.slot(i) + populations.index(-1, high ? cells : -1, z));
+    }
   }
 }
 

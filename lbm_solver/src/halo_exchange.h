@@ -33,14 +33,31 @@ class HaloExchange {
   bool has_near_rows() const { return is_local(0) || is_local(1); }
   void apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y, int end_y, int z) const;
 
+  /// Where only z is cut between ranks (and no pressure face stands beside the cut), what crosses is complete
+  /// as soon as the kernel, apply_near_rows included, has been in the first and the last plane. `start_early`
+  /// sends it then, so that a rank waits only for one that is a whole sweep late; `fill` or `fold` receives.
+  bool can_start_early() const;
+  void start_early(Populations<T>& populations, bool after_odd_step);
+
  private:
   enum class Partner { none, self, other, mirror };
+
+  /// Buffers of an axis, by the side that the directions leave through. Each axis has its own: those of z may
+  /// be under way while the others are exchanged.
+  struct Messages {
+    std::vector<T> send[2], receive[2];
+    MPI_Request requests[4];
+    int pending = 0;
+  };
 
   void run_axis(Populations<T>& populations, int axis, bool folding);
   void mirror(Populations<T>& populations, int axis, bool high, bool folding);
   void copy_rows(Populations<T>& populations, int direction, bool folding, const CellBox& rows) const;
   void copy_far_rows(Populations<T>& populations, bool high, bool folding) const;
   void exchange(Populations<T>& populations, int axis, bool folding);
+  void post(Populations<T>& populations, int axis, bool folding);
+  void finish(Populations<T>& populations, int axis, bool folding);
+  void fill_rows_beyond_y(Populations<T>& populations, int z) const;
 
   bool is_local(std::size_t face) const {
     return partners_[face] == Partner::self || partners_[face] == Partner::mirror;
@@ -52,7 +69,8 @@ class HaloExchange {
   std::array<Partner, kFaces> partners_{};
   std::array<int, kFaces> neighbours_{};
   std::array<bool, kFaces> pressure_{};
-  std::vector<T> send_[2], receive_[2];
+  std::array<Messages, 3> messages_;
+  bool started_ = false;  ///< start_early has been called, its messages are under way
 };
 
 }  // namespace suffuse::lbm
