@@ -85,7 +85,7 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 template <class T>
 void FluidCore<T>::sweep(Kernel<T> kernel) {
   const int planes = populations_.cells()[2];
-  if (!halo_.can_start_early()) {
+  if (!halo_.can_start_early(odd)) {
     sweep_planes(kernel, 0, planes);
     return;
   }

@@ -255,11 +255,11 @@ void HaloExchange<T>::finish(Populations<T>& populations, int axis, bool folding
 }
 
 template <class T>
-bool HaloExchange<T>::can_start_early() const {
-  bool z_alone = partners_[4] == Partner::other || partners_[5] == Partner::other;
+bool HaloExchange<T>::can_start_early(bool after_odd_step) const {
+  bool possible = partners_[4] == Partner::other || partners_[5] == Partner::other;
   for (std::size_t face = 0; face < 4; ++face)
-    z_alone &= partners_[face] != Partner::other && !pressure_[face];
-  return z_alone;
+    possible &= !pressure_[face] && (after_odd_step || partners_[face] != Partner::other);
+  return possible;
 }
 
 template <class T>

@@ -33,10 +33,11 @@ class HaloExchange {
   bool has_near_rows() const { return is_local(0) || is_local(1); }
   void apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y, int end_y, int z) const;
 
-  /// Where only z is cut between ranks (and no pressure face stands beside the cut), what crosses is complete
-  /// as soon as the kernel, apply_near_rows included, has been in the first and the last plane. `start_early`
-  /// sends it then, so that a rank waits only for one that is a whole sweep late; `fill` or `fold` receives.
-  bool can_start_early() const;
+  /// What crosses between ranks along z is complete as soon as the kernel, apply_near_rows included, has been
+  /// in the first and the last plane: after an odd step always, after an even one where x and y are not cut
+  /// as well (their ghost cells travel along); pressure faces beside the cut forbid both. `start_early` sends
+  /// it then, so that a rank waits only for one that is a whole sweep late; `fill` or `fold` receives.
+  bool can_start_early(bool after_odd_step) const;
   void start_early(Populations<T>& populations, bool after_odd_step);
 
  private:
