@@ -110,15 +110,15 @@ void stream_collide(const KernelCall<T>& call) {
       for (int i = 0; i < kDirections; ++i) place[i] = call.place[i] + row;
       step_packs<T, Operator, Solid, kForced>(place, row, packs, width, call);
       if (rest == 0) continue;
-      Pack<T> scratch[kDirections] = {};
+      // Whole registers are read, past the end of the row too; what lies there is computed and dropped.
+      Pack<T> scratch[kDirections];
       T* copy[kDirections];
       for (int i = 0; i < kDirections; ++i) {
+        scratch[i] = load<T>(place[i] + packs * width);
         copy[i] = reinterpret_cast<T*>(&scratch[i]);
-        for (int lane = 0; lane < rest; ++lane) copy[i][lane] = place[i][packs * width + lane];
       }
       step_packs<T, Operator, Solid, kForced>(copy, row + packs * width, 1, rest, call);
-      for (int i = 0; i < kDirections; ++i)
-        for (int lane = 0; lane < rest; ++lane) place[i][packs * width + lane] = copy[i][lane];
+      for (int i = 0; i < kDirections; ++i) store_lanes<T>(place[i] + packs * width, scratch[i], rest);
     }
 }
 
