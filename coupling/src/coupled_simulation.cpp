@@ -8,6 +8,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
 #include "suffuse/coupling/virtual_mass.h"
+#include "suffuse/lbm/health.h"
 
 namespace suffuse::coupling {
 
@@ -224,6 +225,25 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   loads_are_current_ = true;
 }
 
+/// Before a discrete-element code is given what it would choke on.
+void CoupledSimulation::require_finite(const GrainArrays& grains) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < 3 * static_cast<std::size_t>(grains.owned); ++n)
+    sum += 0 * force_[n] + 0 * torque_[n];
+  int broken = sum == 0 ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &broken, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  if (broken == 0) return;
+  lbm::FluidExtremes extremes;
+  extremes.finite = false;
+  lbm::require_stable(extremes, units_, time_si(), 1, "lbm run");
+}
+
+double CoupledSimulation::overlap() const {
+  double sum = mapping_.overlap();
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, fluid_.decomposition().communicator());
+  return sum;
+}
+
 void CoupledSimulation::refresh_loads() {
   int stale = loads_are_current_ ? 0 : 1, any = 0;
   MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
@@ -231,6 +251,7 @@ void CoupledSimulation::refresh_loads() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
+  require_finite(grains);
   hand_over(grains);
 }
 

@@ -25,7 +25,8 @@ class CoupledSimulation {
   CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                     const Vec3& origin, ParticlePort& grains);
 
-  /// One fluid step and the DEM steps that belong to it. Collective.
+  /// One fluid step and the DEM steps that belong to it. A UserError if the fluid's forces are no numbers any
+  /// more. Collective.
   void step();
 
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
@@ -54,6 +55,9 @@ class CoupledSimulation {
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 
+  /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
+  double overlap() const;
+
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
   CoupledTimes& times() { return times_; }
@@ -70,6 +74,7 @@ class CoupledSimulation {
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
+  void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
   lbm::Units units_;
