@@ -94,6 +94,7 @@ class LiggghtsPort final : public ParticlePort {
 
  private:
   void keep_memory();
+
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
   bool running_ = false;

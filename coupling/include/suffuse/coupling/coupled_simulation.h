@@ -50,13 +50,13 @@ class CoupledSimulation {
   void set_substeps(int substeps);
   double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
 
+  /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
+  double overlap() const;
+
   /// k of sphere n (copies included) as the last step mapped it.
   double coefficient_of(std::size_t n) const { return spheres_[n].coefficient; }
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
-
-  /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
-  double overlap() const;
 
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
