@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Fits the coefficient of the viscosity-independent weighting, and reports it on packings that were not fitted.
 
-    coefficient_calibration.py run --program build/release/bin/coefficient_calibration --runs RUNS
+    coefficient_calibration.py run  --program build/release/bin/coefficient_calibration --runs RUNS
     coefficient_calibration.py fit --runs RUNS --table zick_homsy_1982.csv --out docs/results/data [--figure FILE.png]
 
-`run` makes RUNS/arrays_OPERATOR.csv (drag against the coefficient, on arrays) and RUNS/packings_OPERATOR.csv
-(automatic coefficient, random packings, at 5 to 16 cells): about an hour on one core. `fit` finds the
-coefficient k* that gives the drag of Zick & Homsy in each array, fits CoefficientLaw to it, and writes
-coefficient_arrays.csv and coefficient_packings.csv.
+`run` makes RUNS/scans_OPERATOR.csv (drag against the coefficient, on arrays and random packings of equal
+spheres) and RUNS/packings_OPERATOR.csv (automatic coefficient, random packings, at 5 to 12 cells): about an
+hour on one core (an estimate: not yet run as a whole). `fit` finds the coefficient k* that gives the right drag in each (Zick & Homsy's in arrays,
+the mean of the finest runs of both operators in random packings), fits CoefficientLaw to it, and writes
+coefficient_scans.csv and coefficient_packings.csv. Seeds of 2 and graded packings are not fitted.
 """
 import argparse
 import collections
@@ -18,14 +19,15 @@ import subprocess
 import numpy as np
 
 ARRAYS = "sc:0.064,sc:0.216,fcc:0.343,sc:0.45,fcc:0.45,sc:0.5236,fcc:0.6"
-PACKINGS = (
-    "random:0.2:16:1,random:0.3:16:1,random:0.4:16:1,random:0.5:16:1,random:0.58:16:1,random:0.62:32:1,"
+FITTED = "random:0.2:16:1,random:0.3:16:1,random:0.4:16:1,random:0.5:16:1,random:0.58:16:1,random:0.62:32:1"
+PACKINGS = FITTED + (
+    ","
     "random:0.4:24:2,random:0.58:24:2,spread:0.45:16:1:0.3,spread:0.58:16:2:0.4,appendix_c:0.6:1,"
     "gap:0.62:4:1:3:0.3"
 )
 COEFFICIENTS = {"force": "1.5,2,3,4,6,8,11", "sc3": "0.8,1.2,1.8,2.7,4,6"}
 DIAMETERS = {"force": "5,6.2,8,10,14,20", "sc3": "5,6.5,8,11"}
-TAU = {"force": ("1", "2"), "sc3": ("0.8", "0.9")}  # of arrays and packings; `force` does not depend on it
+TAU = {"force": ("1", "1"), "sc3": ("0.8", "0.9")}  # of arrays and packings; `force` does not depend on it
 
 
 def run(program, runs):
@@ -33,9 +35,9 @@ def run(program, runs):
     for operator, tau in TAU.items():
         common = ["--operator", operator]
         jobs = {
-            "arrays": ["--packing", ARRAYS, "--diameter", DIAMETERS[operator], "--coefficient", COEFFICIENTS[operator],
+            "scans": ["--packing", ARRAYS + "," + FITTED, "--diameter", DIAMETERS[operator], "--coefficient", COEFFICIENTS[operator],
                        "--relaxation-time", tau[0]],
-            "packings": ["--packing", PACKINGS, "--diameter", "5,6.5,8,16", "--single", "--relaxation-time", tau[1]],
+            "packings": ["--packing", PACKINGS, "--diameter", "5,6.5,8,12", "--relaxation-time", tau[1]],
         }
         for name, options in jobs.items():
             with open(runs / f"{name}_{operator}.csv", "w", encoding="utf-8") as out:
@@ -53,25 +55,26 @@ def zick_homsy(path):
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
         for row in rows:
             drag = row["K_zick_homsy_table"] or row["K_computed_here"]
-            drags[row["lattice"].lower(), round(float(row["solid_fraction_c"]), 4)] = float(drag)
+            c = round(float(row["solid_fraction_c"]), 4)
+            drags[f"{row['lattice'].lower()}:{c:g}"] = float(drag)
     return drags
 
 
 def best_coefficients(rows, drags):
-    """(packing, D, x, k*) of each array: log k interpolated in log K."""
+    """(packing, D, x, k*) of each packing: log k interpolated in log K, and the slope dlnK/dlnk there."""
     points = collections.defaultdict(list)
     for row in rows:
         key = row["packing"], float(row["diameter_cells"]), float(row["crowding"])
         points[key].append((float(row["drag_K"]), float(row["coefficient"])))
     best = []
     for (name, diameter, x), pairs in points.items():
-        lattice, c = name.split(":")
         drag, k = (np.log(v) for v in np.array(sorted(pairs)).T)
-        wanted = np.log(drags[lattice, round(float(c), 4)])
+        wanted = np.log(drags[name])
         if drag[0] <= wanted <= drag[-1]:
-            quadratic = np.polyfit(drag[np.argsort(abs(drag - wanted))[:3]],
-                                   k[np.argsort(abs(drag - wanted))[:3]], 2)
-            best.append((name, diameter, x, float(np.exp(np.polyval(quadratic, wanted)))))
+            nearest = np.argsort(abs(drag - wanted))[:3]
+            quadratic = np.polyfit(drag[nearest], k[nearest], 2)
+            slope = 1 / np.polyval(np.polyder(quadratic), wanted)
+            best.append((name, diameter, x, float(np.exp(np.polyval(quadratic, wanted))), slope))
     return best
 
 
@@ -80,9 +83,10 @@ def terms(diameter, x):
 
 
 def fit_law(best):
-    """constant, single, crowded, narrow with the least squared relative error of k."""
-    diameter, x, k = (np.array([b[i] for b in best]) for i in (1, 2, 3))
-    return np.linalg.lstsq(terms(diameter, x) / k[:, None], np.ones(len(k)), rcond=None)[0]
+    """constant, single, crowded, narrow with the least squared error of the drag; random packings count twice."""
+    diameter, x, k, slope = (np.array([b[i] for b in best]) for i in (1, 2, 3, 4))
+    weight = (slope + 0.05) / k * np.array([2 if b[0].startswith("random") else 1 for b in best])
+    return np.linalg.lstsq(terms(diameter, x) * weight[:, None], k * weight, rcond=None)[0]
 
 
 def write(path, header, rows):
@@ -94,41 +98,42 @@ def write(path, header, rows):
 
 def fit(runs, table, out, figure):
     drags = zick_homsy(table)
-    arrays, laws, packings = [], {}, []
-    for operator in ("force", "sc3"):
-        best = best_coefficients(read(runs / f"arrays_{operator}.csv"), drags)
+    rows = {operator: read(runs / f"packings_{operator}.csv") for operator in TAU}
+    finest = collections.defaultdict(list)
+    for operator in rows:
+        for row in rows[operator]:
+            if float(row["diameter_cells"]) > 11:
+                finest[row["packing"]].append(float(row["drag_K"]))
+    for name, values in finest.items():
+        drags[name] = float(np.mean(values))
+    scans, laws, packings = [], {}, []
+    for operator in TAU:
+        best = best_coefficients([row for row in read(runs / f"scans_{operator}.csv") if row["packing"] in drags],
+                                 drags)
         law = laws[operator] = fit_law(best)
         print(f"{operator}: constant, single, crowded, narrow = " + ", ".join(f"{v:.3g}" for v in law))
-        for name, diameter, x, k in best:
+        for name, diameter, x, k, _ in best:
             fitted = float(terms(np.array([diameter]), np.array([x]))[0] @ law)
-            arrays.append([operator, name, diameter, round(x, 4), round(k, 3), round(fitted, 3)])
-    finest = collections.defaultdict(list)
-    rows = {operator: read(runs / f"packings_{operator}.csv") for operator in ("force", "sc3")}
-    for operator in rows:
+            scans.append([operator, name, diameter, round(x, 4), round(k, 3), round(fitted, 3)])
         for row in rows[operator]:
-            if float(row["diameter_cells"]) > 13:
-                finest[row["packing"]].append(float(row["drag_K"]))
-    for operator in rows:
-        for row in rows[operator]:
-            reference = finest[row["packing"]]
-            if not reference:
+            if row["packing"] not in drags:
                 continue
-            mean = float(np.mean(reference))
-            error = 100 * (float(row["drag_K"]) / mean - 1)
+            reference = drags[row["packing"]]
+            error = 100 * (float(row["drag_K"]) / reference - 1)
             packings.append([operator, row["packing"], row["diameter_cells"], row["crowding"], row["drag_K"],
-                             round(mean, 3), len(reference), round(error, 2)])
-    write(out / "coefficient_arrays.csv",
-          ["operator", "packing", "diameter_cells", "crowding", "best_coefficient", "fitted_coefficient"], arrays)
+                             round(reference, 3), len(finest[row["packing"]]), round(error, 2)])
+    write(out / "coefficient_scans.csv",
+          ["operator", "packing", "diameter_cells", "crowding", "best_coefficient", "fitted_coefficient"], scans)
     write(out / "coefficient_packings.csv",
           ["operator", "packing", "diameter_cells", "crowding", "drag_K", "reference_K", "reference_runs",
            "error_percent"], packings)
     for row in packings:
         print("%-5s %-24s D=%-8s K=%-10s error %+5.1f %%" % (row[0], row[1], row[2], row[4], row[7]))
     if figure:
-        draw(arrays, laws, packings, figure)
+        draw(scans, laws, packings, figure)
 
 
-def draw(arrays, laws, packings, figure):
+def draw(scans, laws, packings, figure):
     import matplotlib
 
     matplotlib.use("Agg")
@@ -137,8 +142,8 @@ def draw(arrays, laws, packings, figure):
     fig, axes = plt.subplots(1, 3, figsize=(11, 3.6))
     for axis, operator in zip(axes, ("force", "sc3")):
         for color, diameter in zip(("C0", "C1", "C2", "C3"), (5, 6.5, 8, 11)):
-            near = [a for a in arrays if a[0] == operator and abs(a[2] / diameter - 1) < 0.06]
-            for marker, lattice in (("o", "sc"), ("s", "fcc")):
+            near = [a for a in scans if a[0] == operator and abs(a[2] / diameter - 1) < 0.06]
+            for marker, lattice in (("o", "sc"), ("s", "fcc"), ("x", "random")):
                 points = [a for a in near if a[1].startswith(lattice)]
                 axis.plot([a[3] for a in points], [a[4] for a in points], marker, color=color, ms=4)
             x = np.linspace(0, 1.7, 50)
