@@ -7,6 +7,7 @@
 #include "commands/constriction_command.h"
 #include "commands/contacts_command.h"
 #include "commands/grading_command.h"
+#include "commands/hydraulic_command.h"
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
 #include "suffuse/common/error.h"
@@ -32,6 +33,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_contacts(app);
   suffuse::analysis::add_grading(app);
   suffuse::analysis::add_constriction(app);
+  suffuse::analysis::add_hydraulic(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
   try {

@@ -62,7 +62,7 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
     const double start = MPI_Wtime();
     LatticeLoad all;
     for (const std::size_t n : simulation.mapping().order())
-      all.force[0] += simulation.mapping().load_of(n).force[0];
+      all.force[0] += simulation.mapping().load_of(n, simulation.units().relaxation_time()).force[0];
     costs.exchange = slowest(MPI_Wtime() - start + 1e-30 * std::abs(all.force[0]), communicator);
   }
   costs.bytes = static_cast<double>(simulation.fluid().bytes() + simulation.mapping().bytes());

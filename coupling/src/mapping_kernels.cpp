@@ -91,12 +91,12 @@ double sum_of(const Doubles& v) {
 }
 
 template <class T>
-void sum_with(const MappedSphere& m, const CellArrays& arrays, const T* const* exchange, const float* entries,
-              LatticeLoad& load_sum) {
+void sum_with(const MappedSphere& m, const HeldRule& held, const CellArrays& arrays, const T* const* exchange,
+              const float* entries, LatticeLoad& load_sum) {
   const LatticeSphere& s = m.sphere;
   const double first_x = m.x_start + arrays.lo[0] + 0.5 - s.position[0];
   const Doubles lanes = __builtin_convertvector(kLaneNumbers, Doubles);
-  Doubles force[3]{}, torque[3]{};
+  Doubles force[3]{}, torque[3]{}, lead[3]{}, spin_lead[3]{};
   for (int z = m.z_begin; z < m.z_end; ++z) {
     const double dz = z + arrays.lo[2] + 0.5 - s.position[2];
     for (int y = m.y_begin; y < m.y_end; ++y) {
@@ -113,15 +113,26 @@ void sum_with(const MappedSphere& m, const CellArrays& arrays, const T* const* e
         force[0] += hx;
         force[1] += hy;
         force[2] += hz;
-        torque[0] += dy * hz - dz * hy;
-        torque[1] += dz * hx - dx * hz;
-        torque[2] += dx * hy - dy * hx;
+        const Doubles tx = dy * hz - dz * hy, ty = dz * hx - dx * hz, tz = dx * hy - dy * hx;
+        torque[0] += tx;
+        torque[1] += ty;
+        torque[2] += tz;
+        const Floats open = 1.f - lesser(load(arrays.fraction + cell), Floats{} + 1.f);
+        const Doubles ahead = held.whole - held.slope * __builtin_convertvector(open, Doubles);
+        lead[0] += ahead * hx;
+        lead[1] += ahead * hy;
+        lead[2] += ahead * hz;
+        spin_lead[0] += ahead * tx;
+        spin_lead[1] += ahead * ty;
+        spin_lead[2] += ahead * tz;
       }
     }
   }
   for (int a = 0; a < 3; ++a) {
     load_sum.force[a] = sum_of(force[a]);
     load_sum.torque[a] = sum_of(torque[a]);
+    load_sum.lead[a] = sum_of(lead[a]);
+    load_sum.spin_lead[a] = sum_of(spin_lead[a]);
   }
 }
 
@@ -141,12 +152,12 @@ void map_sphere(const MappedSphere& mapped, const FractionRule& rule, const char
   }
 }
 
-void sum_load(const MappedSphere& mapped, const CellArrays& arrays, const float* entries,
-              LatticeLoad& load_sum) {
+void sum_load(const MappedSphere& mapped, const HeldRule& held, const CellArrays& arrays,
+              const float* entries, LatticeLoad& load_sum) {
   if (arrays.exchange_double[0] != nullptr)
-    sum_with<double>(mapped, arrays, arrays.exchange_double, entries, load_sum);
+    sum_with<double>(mapped, held, arrays, arrays.exchange_double, entries, load_sum);
   else
-    sum_with<float>(mapped, arrays, arrays.exchange_float, entries, load_sum);
+    sum_with<float>(mapped, held, arrays, arrays.exchange_float, entries, load_sum);
 }
 
 }  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

@@ -187,23 +187,25 @@ std::size_t SolidMapping::update(const std::vector<LatticeSphere>& spheres) {
   return count;
 }
 
-LatticeLoad SolidMapping::load_of(std::size_t n) const {
+LatticeLoad SolidMapping::load_of(std::size_t n, double relaxation_time) const {
   LatticeLoad load;
   const MappedSphere& m = mapped_[n];
   if (m.packs == 0) return load;
   const float* entries = entries_.data() + m.first_entry;
   const CellArrays arrays = plain(arrays_, box_);
+  const lbm::HeldTerms terms = lbm::held_terms(settings_.cells, m.sphere.coefficient, relaxation_time);
+  const HeldRule held{terms.whole, terms.slope};
   switch (instruction_set_) {
 #ifdef SUFFUSE_HAVE_X86_KERNELS
     case lbm::InstructionSet::avx512:
-      avx512::sum_load(m, arrays, entries, load);
+      avx512::sum_load(m, held, arrays, entries, load);
       break;
     case lbm::InstructionSet::avx2:
-      avx2::sum_load(m, arrays, entries, load);
+      avx2::sum_load(m, held, arrays, entries, load);
       break;
 #endif
     default:
-      portable::sum_load(m, arrays, entries, load);
+      portable::sum_load(m, held, arrays, entries, load);
   }
   return load;
 }

@@ -160,6 +160,22 @@ def bad_input(run, gradings):
     refused(run, "no such step", ("constriction", "--packing", "grains.gz", "--step", 11), "step 11", ())
 
 
+def hydraulic(run, gradings):
+    bed = gradings / "appendix_C.csv"
+    result = run("hydraulic", bed, "--porosity", 0.376, "--alpha", 0.5, "--top-stress", 1000, "--thickness", 0.012, "--output", "h.csv")
+    expect(result.returncode == 0, f"hydraulic: {result.stderr}")
+    found = {row["source"]: float(row["value"]) for row in rows(run.folder / "h.csv")}
+    expect(close(found["terzaghi1943"], 1.65 * 0.624), "Terzaghi at n = 0.376")
+    expect(close(found["skemptonbrogan1994"], 0.5 * 1.65 * 0.624), "half of it for alpha = 0.5")
+    expect(close(found["lifannin2012"], 0.5 * (1000 / (9810 * 0.012) + 1.65 * 0.624)), "and under stress")
+    # Carman and Kozeny with the Sauter size of the 20 classes themselves.
+    sauter = 1 / sum(float(row["mass_fraction"]) / float(row["diameter_m"]) for row in rows_without_comments(bed))
+    expect(close(found["carman1939"], 9.81e6 * sauter**2 * 0.376**3 / (180 * 0.624**2)), "Carman and Kozeny")
+    refused(run, "porosity in per cent", ("hydraulic", bed, "--porosity", 37.6, "--output", "no_o.csv"), "between 0 and 1", ("no_o.csv",))
+    refused(run, "light grains", ("hydraulic", bed, "--porosity", 0.4, "--grain-density", 900), "above the fluid", ())
+    refused(run, "stress without layer", ("hydraulic", bed, "--porosity", 0.4, "--top-stress", 1000), "together", ())
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--analyse", required=True)
@@ -172,6 +188,7 @@ def main():
         good_packings(run)
         equal_spheres(run)
         bad_input(run, gradings)
+        hydraulic(run, gradings)
     if PROBLEMS:
         raise SystemExit(f"analyse_gradings: {len(PROBLEMS)} failed")
     print("analyse_gradings: in order")

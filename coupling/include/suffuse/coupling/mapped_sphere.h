@@ -25,6 +25,10 @@ struct LatticeSphere {
 struct LatticeLoad {
   double force[3]{};
   double torque[3]{};
+  /// Momentum, and angular momentum, by which the fluid that the sphere covers was ahead of the sphere after
+  /// that step (lbm::HeldTerms).
+  double lead[3]{};
+  double spin_lead[3]{};
 };
 
 /// A sphere as it was last mapped, and which cells of this rank it may reach: rows of packs of eight cells,

@@ -25,7 +25,7 @@ class SolidMapping {
   std::size_t update(const std::vector<LatticeSphere>& spheres);
 
   /// Sum over the cells of sphere n of the last update; zero for one that reaches no cell of this rank.
-  LatticeLoad load_of(std::size_t n) const;
+  LatticeLoad load_of(std::size_t n, double relaxation_time) const;
 
   /// Sum of the fractions of sphere n in this rank's cells: its volume there, in cells.
   double volume_of(std::size_t n) const;
