@@ -176,7 +176,7 @@ TEST_CASE("columns are found by name, by the words of the compute, and by a name
   CHECK_THAT(message_of([&] { record_of(paths, settings); }), Catch::Contains("speed"));
 }
 
-TEST_CASE("snapshots over many files come in the order of their steps; those without a partner are told") {
+TEST_CASE("snapshots over many files come in the order of their steps and those without a partner are told") {
   const Scratch scratch;
   const Packing packing = sample();
   for (const long step : {20L, 100L, 3L}) {

@@ -82,7 +82,7 @@ TEST_CASE("fits find known Fourier coefficients of the contacts and of both part
 }
 
 TEST_CASE(
-    "with 36 bins the second order is Appendix D's fit; the grain that is named first does not matter") {
+    "with 36 bins the second order is Appendix D's fit and the grain that is named first does not matter") {
   Packing packing = planar_packing(
       [](double t) { return 1 + 0.3 * std::cos(2 * (t - 0.6)); },
       [](double t, const Vec3& n) -> Vec3 { return n + 0.1 * std::sin(2 * t) * Vec3(-n.z(), 0, n.x()); });
