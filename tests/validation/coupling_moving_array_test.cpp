@@ -71,18 +71,18 @@ TEST_CASE("drag does not change by 0.5 % when grains and fluid move together") {
   }
 }
 
-TEST_CASE("the force noise of a sphere that crosses cells is a few per cent at most") {
+TEST_CASE("the force noise of a sphere that crosses cells is below 1 %") {
   struct Choice {
     const char* name;
     FractionMethod method;
     int subcells;
-    double bound;
+    double bound;  ///< twice what was measured at the higher speed: no other reference exists
   };
-  std::printf("force noise, rms and largest in %% of the mean, 5.4 cells a diameter, slip about 0.005\n");
+  std::printf("force noise, rms and largest in %% of the mean, 5.4 cells a diameter, slip about 0.002\n");
   for (const Choice& c :
-       {Choice{"exact", FractionMethod::exact, 5, 0.03}, Choice{"linear", FractionMethod::linear, 5, 0.06},
-        Choice{"subcells 5", FractionMethod::subcells, 5, 0.2},
-        Choice{"subcells 10", FractionMethod::subcells, 10, 0.1}}) {
+       {Choice{"exact", FractionMethod::exact, 5, 0.0015}, Choice{"linear", FractionMethod::linear, 5, 0.003},
+        Choice{"subcells 5", FractionMethod::subcells, 5, 0.0045},
+        Choice{"subcells 10", FractionMethod::subcells, 10, 0.0015}}) {
     SolidSettings solids = default_solids(5.4, 0.08);
     solids.fraction = c.method;
     solids.subcells = c.subcells;
