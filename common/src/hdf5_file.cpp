@@ -247,6 +247,7 @@ std::string Hdf5File::text_attribute(const std::string& object, const std::strin
 SUFFUSE_INSTANTIATE(double)
 SUFFUSE_INSTANTIATE(float)
 SUFFUSE_INSTANTIATE(std::uint8_t)
+SUFFUSE_INSTANTIATE(std::int64_t)
 #undef SUFFUSE_INSTANTIATE
 
 }  // namespace suffuse

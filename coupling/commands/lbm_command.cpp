@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "domain.h"
+#include "fix.h"
 #include "lammps.h"
+#include "lbm_plan.h"
 #include "lbm_run.h"
+#include "modify.h"
 #include "region.h"
 #include "region_block.h"
 #include "register_styles.h"
@@ -101,7 +105,10 @@ void LbmCommand::line(int narg, char** arg) {
     simulation_.reset();
     port_.reset();
     settings_ = {};
+    effects_.clear();
+    output_ = {};
     state_to_read_.clear();
+    continued_at_.reset();
   } else {
     throw_user_error({"lbm", "word", word.empty() ? "nothing" : word, std::string("be one of: ") + known,
                       "see docs/reference/lbm.md"});
@@ -128,6 +135,9 @@ void LbmCommand::restart(ArgumentReader& reader) {
   const std::string file = reader.word("file");
   if (mode == "read") {
     refuse_after_start("restart read");
+    if (!std::filesystem::is_regular_file(file))
+      throw_user_error(
+          {reader.who(), "file", file, "be a state that `lbm restart write` saved", "check the path"});
     state_to_read_ = file;
   } else if (mode == "write") {
     if (reader.accept("every")) {
@@ -136,25 +146,66 @@ void LbmCommand::restart(ArgumentReader& reader) {
       throw_user_error(
           {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
     } else {
-      lbm::save_state(simulation_->fluid(), file);
+      write_checkpoint(lmp_, *simulation_, file);
     }
   } else {
     reader.unknown(mode, "write, read");
   }
 }
 
-void LbmCommand::build() {
+/// LIGGGHTS's own fix gives grains the weight of the displaced fluid as well.
+void LbmCommand::refuse_double_buoyancy() const {
+  if (settings_.coupled.effects.buoyancy == Switch::off) return;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (std::string(lmp_->modify->fix[i]->style).starts_with("buoyancy") && !settings_.gravity.is_zero())
+      throw_user_error(
+          {"lbm run", "fix", lmp_->modify->fix[i]->id,
+           "not act beside `lbm force gravity`: both give grains the weight of the displaced fluid",
+           "unfix it, or write `lbm effect buoyancy off`"});
+}
+
+/// Everything that `auto` leaves open is decided here, from the grains as they are now.
+CoupledSettings LbmCommand::resolved_settings(std::vector<EffectChoice>& effects) {
   const lbm::Units units(settings_.coupled.units);
-  const FluidBox box = fluid_box(lmp_, *port_, settings_.region);
+  const LiggghtsPort::Summary grains = port_->summary();
   CoupledSettings coupled = settings_.coupled;
   coupled.fluid.faces = faces_now(settings_, units, lmp_);
-  port_->check_box(coupled.fluid.faces);
-  const lbm::Index3 cells = lbm::whole_cells(box.size, units.spacing(), "lbm lattice");
+  coupled.gravity = settings_.gravity.now(lmp_);
+  coupled.pressure_gradient = settings_.pressure_gradient.now(lmp_);
+  SceneFacts facts;
+  facts.fastest_flow = coupled.units.largest_velocity.value_or(0);
+  for (const lbm::FaceCondition& face : coupled.fluid.faces)
+    if (face.kind == lbm::FaceKind::velocity)
+      facts.fastest_flow = std::max(facts.fastest_flow, units.velocity_to_si(face.velocity).norm());
+  facts.largest_radius = grains.largest_radius;
+  facts.largest_density = grains.largest_density;
+  facts.packing = grains.packing;
+  facts.gravity = settings_.gravity.is_zero() ? 0 : std::max(coupled.gravity.norm(), 1e-300);
+  facts.grains_move = grains.grains > 0 && port_->anything_moves();
+  effects = choose_effects(coupled.effects, facts, units);
   if (coupled.effects.turbulence == Switch::on) coupled.fluid.collision.smagorinsky = settings_.smagorinsky;
+  return coupled;
+}
+
+/// LIGGGHTS's sub-boxes over the cells of the fluid's box; `low` is set to its low corner.
+lbm::Decomposition LbmCommand::decomposition(Vec3& low) {
+  const double spacing = lbm::Units(settings_.coupled.units).spacing();
+  const FluidBox box = fluid_box(lmp_, *port_, settings_.region);
+  low = box.low;
+  return port_->decomposition(box.low, spacing, lbm::whole_cells(box.size, spacing, "lbm lattice"));
+}
+
+void LbmCommand::build() {
+  CoupledSettings coupled = resolved_settings(effects_);
+  port_->check_box(coupled.fluid.faces);
+  Vec3 low;
+  const lbm::Decomposition parts = decomposition(low);
   coupled.substeps = choose_substeps();
-  const auto decomposition = port_->decomposition(box.low, units.spacing(), cells);
-  simulation_ = std::make_unique<CoupledSimulation>(coupled, decomposition, box.low, *port_);
-  if (!state_to_read_.empty()) lbm::load_state(simulation_->fluid(), state_to_read_);
+  simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
+  if (!state_to_read_.empty()) {
+    lbm::load_state(simulation_->fluid(), state_to_read_);
+    continued_at_ = simulation_->time_si();
+  }
 }
 
 /// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many
@@ -176,7 +227,15 @@ int LbmCommand::choose_substeps() {
 void LbmCommand::plan(ArgumentReader& reader) {
   require_lattice(reader.who());
   const double time = reader.positive("time");
-  (void)time;
+  if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+  if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
+  std::vector<EffectChoice> effects;
+  CoupledSettings coupled = resolved_settings(effects);
+  port_->check_box(coupled.fluid.faces);
+  Vec3 low;
+  const lbm::Decomposition parts = decomposition(low);
+  coupled.substeps = choose_substeps();
+  plan_run(lmp_, coupled, parts, low, *port_, time);
 }
 
 void LbmCommand::run(ArgumentReader& reader) {
@@ -186,9 +245,11 @@ void LbmCommand::run(ArgumentReader& reader) {
   if (reader.accept("until")) {
     if (!reader.accept("steady")) reader.unknown(reader.word("condition"), "steady");
     request.steady = reader.positive("share");
+    if (reader.accept("window")) request.window = reader.positive("window");
   }
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
+  refuse_double_buoyancy();
   if (simulation_ == nullptr) {
     build();
   } else {
@@ -196,7 +257,7 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
   }
-  LbmRun(lmp_, settings_, *port_, *simulation_).run(request);
+  LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
 }
 
 }  // namespace suffuse::coupling

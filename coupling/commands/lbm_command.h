@@ -3,10 +3,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "../liggghts/liggghts_port.h"
 #include "lbm_settings.h"
+#include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/effects.h"
 
 namespace suffuse::coupling {
 
@@ -30,6 +33,9 @@ class LbmCommand {
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
+  void refuse_double_buoyancy() const;
+  CoupledSettings resolved_settings(std::vector<EffectChoice>& effects);
+  lbm::Decomposition decomposition(Vec3& low);
   void build();
   int choose_substeps();
 
@@ -37,7 +43,10 @@ class LbmCommand {
   LbmSettings settings_;
   std::unique_ptr<LiggghtsPort> port_;
   std::unique_ptr<CoupledSimulation> simulation_;
+  std::vector<EffectChoice> effects_;
+  RunOutput output_;
   std::string state_to_read_;
+  std::optional<double> continued_at_;  ///< s: time of the state that was read
 };
 
 }  // namespace suffuse::coupling

@@ -1,35 +1,52 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "../liggghts/liggghts_port.h"
 #include "lbm_settings.h"
+#include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/effects.h"
 
 namespace suffuse::coupling {
 
 struct RunRequest {
-  double time = 0;               ///< s
-  std::optional<double> steady;  ///< end early when the flow changes by less than this share
+  double time = 0;  ///< s
+  /// End early once the fluid's superficial velocity and the grains' mean motion have changed by less than
+  /// this share of themselves over `window`.
+  std::optional<double> steady;
+  double window = 0;  ///< s; 0: a twentieth of the time
 };
 
-/// One `lbm run`: what is due at which fluid step.
+/// One `lbm run`: manifest, steps with what is due at each, table of times.
 class LbmRun {
  public:
   LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-         CoupledSimulation& simulation);
+         CoupledSimulation& simulation, RunOutput& output);
 
-  /// Prints the manifest, runs, prints where the time went. Collective.
-  void run(const RunRequest& request);
+  /// Collective. A UserError if the flow becomes unstable.
+  void run(const RunRequest& request, const std::vector<EffectChoice>& effects,
+           std::optional<double> continue_after);
 
  private:
   void set_values();
+  void say(const std::string& line) const;
+  void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
+  void check(long step, long first, long last);
+  bool is_steady(double share);
+  std::string details(long done) const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   const LbmSettings& settings_;
   LiggghtsPort& port_;
   CoupledSimulation& simulation_;
+  RunOutput& output_;
   bool speaks_;
+  double start_ = 0;
+  lbm::FluidExtremes extremes_;
+  std::optional<Vec3> last_flow_, last_motion_;
 };
 
 }  // namespace suffuse::coupling

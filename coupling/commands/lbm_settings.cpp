@@ -279,26 +279,14 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
 }
 
 void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
-  MonitorRequest monitor;
-  monitor.id = reader.word("ID of the monitor");
+  const std::string id = reader.word("ID of the monitor");
   if (reader.accept("off")) {
-    std::erase_if(settings.monitors, [&](const MonitorRequest& m) { return m.id == monitor.id; });
+    std::erase_if(settings.monitors, [&](const MonitorRequest& m) { return m.id == id; });
     return;
   }
   for (const MonitorRequest& other : settings.monitors)
-    refuse_repeated(reader, "monitor " + monitor.id, other.id == monitor.id);
-  while (!reader.done()) {
-    if (reader.accept("every"))
-      monitor.every = reader.positive("every");
-    else if (reader.accept("file"))
-      monitor.file = reader.word("file");
-    else
-      monitor.quantities.push_back(reader.word("quantity"));
-  }
-  if (monitor.every <= 0 || monitor.file.empty() || monitor.quantities.empty())
-    throw_user_error({reader.who(), "monitor " + monitor.id, "incomplete", "have every, file and quantities",
-                      "lbm monitor m every 1e-3 file flow.csv superficial_velocity"});
-  settings.monitors.push_back(monitor);
+    refuse_repeated(reader, "monitor " + id, other.id == id);
+  settings.monitors.push_back(read_monitor_request(reader, id));
 }
 
 void read_output(ArgumentReader& reader, LbmSettings& settings) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "monitor_request.h"
 #include "script_value.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/field_output.h"
@@ -17,13 +18,6 @@ struct ScriptFace {
   bool given = false;
   ScriptVector velocity;
   ScriptValue pressure;
-};
-
-/// `lbm monitor`
-struct MonitorRequest {
-  std::string id, file;
-  double every = 0;  ///< s
-  std::vector<std::string> quantities;
 };
 
 /// `lbm output`

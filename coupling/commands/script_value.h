@@ -16,6 +16,7 @@ class ScriptValue {
   static ScriptValue read(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, const std::string& what);
 
   bool changes() const { return !variable_.empty(); }
+  bool is_zero() const { return variable_.empty() && number_ == 0; }
 
   /// A UserError if the variable is gone or its value is not finite. Collective.
   double now(LAMMPS_NS::LAMMPS* lmp) const;
@@ -29,6 +30,7 @@ struct ScriptVector {
   ScriptValue x, y, z;
   static ScriptVector read(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, const std::string& what);
   bool changes() const { return x.changes() || y.changes() || z.changes(); }
+  bool is_zero() const { return x.is_zero() && y.is_zero() && z.is_zero(); }
   Vec3 now(LAMMPS_NS::LAMMPS* lmp) const { return {x.now(lmp), y.now(lmp), z.now(lmp)}; }
 };
 

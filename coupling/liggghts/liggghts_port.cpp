@@ -19,6 +19,7 @@
 #include "styles/early_stop.h"
 #include "styles/fix_hydrodynamic_force.h"
 #include "suffuse/common/error.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
 #include "timer.h"
 #include "update.h"
 
@@ -59,6 +60,7 @@ LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
 GrainArrays LiggghtsPort::grains() {
   const auto* atom = lmp_->atom;
   fix_ = find_force_fix(lmp_);
+  keep_memory();
   fix_->update_ghost_velocities();
   GrainArrays arrays;
   all_grains_ = fix_->igroup == 0;
@@ -73,6 +75,7 @@ GrainArrays LiggghtsPort::grains() {
     arrays.radius = atom->radius;
     arrays.mass = atom->rmass;
     arrays.id = atom->tag;
+    arrays.coefficient = fix_->history() + history::coefficient;
     return arrays;
   }
   local_.clear();
@@ -87,6 +90,7 @@ GrainArrays LiggghtsPort::grains() {
   radius_.clear();
   mass_.clear();
   id_.clear();
+  coefficient_.clear();
   for (const int i : local_) {
     position_.insert(position_.end(), atom->x[i], atom->x[i] + 3);
     velocity_.insert(velocity_.end(), atom->v[i], atom->v[i] + 3);
@@ -94,6 +98,7 @@ GrainArrays LiggghtsPort::grains() {
     radius_.push_back(atom->radius[i]);
     mass_.push_back(atom->rmass[i]);
     id_.push_back(atom->tag[i]);
+    coefficient_.push_back(fix_->history()[kHistoryLength * i + history::coefficient]);
   }
   arrays.position = position_.data();
   arrays.velocity = velocity_.data();
@@ -101,6 +106,8 @@ GrainArrays LiggghtsPort::grains() {
   arrays.radius = radius_.data();
   arrays.mass = mass_.data();
   arrays.id = id_.data();
+  arrays.coefficient = coefficient_.data();
+  arrays.coefficient_stride = 1;
   return arrays;
 }
 
@@ -128,7 +135,7 @@ void LiggghtsPort::sum_over_copies(std::vector<double>& force, std::vector<doubl
 GrainMemory LiggghtsPort::memory() {
   if (lmp_->atom->nlocal == 0) return {};
   if (all_grains_) return {fix_->load(), fix_->history()};
-  load_.clear();
+  keep_memory();
   history_.clear();
   for (const int i : local_) {
     if (i >= lmp_->atom->nlocal) break;
@@ -161,18 +168,20 @@ void LiggghtsPort::set_time_step(double step) {
   for (int i = 0; i < lmp_->modify->nfix; ++i) lmp_->modify->fix[i]->reset_dt();
 }
 
+/// With a part of the grains: writes what was put in memory() back to the fix.
+void LiggghtsPort::keep_memory() {
+  for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
+    std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
+                fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
+    std::copy_n(&history_[kHistoryLength * n], kHistoryLength, fix_->history() + kHistoryLength * local_[n]);
+  }
+  load_.clear();
+}
+
 /// Grains that nothing moves leave nothing to integrate: then only the clock of LIGGGHTS goes on, and its
 /// steps run where an output is due.
 void LiggghtsPort::advance(int substeps) {
-  if (!all_grains_ && !load_.empty()) {
-    for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
-      std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
-                  fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
-      std::copy_n(&history_[kHistoryLength * n], kHistoryLength,
-                  fix_->history() + kHistoryLength * local_[n]);
-    }
-    load_.clear();
-  }
+  keep_memory();
   if (!reads_loads(substeps)) {
     lmp_->update->ntimestep += substeps;
     return;
@@ -283,28 +292,89 @@ lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
   });
 }
 
+void LiggghtsPort::announce_values(int substeps) {
+  lmp_->modify->addstep_compute(lmp_->update->ntimestep + substeps);
+}
+
 LiggghtsPort::Summary LiggghtsPort::summary() const {
   const auto* atom = lmp_->atom;
-  double sums[2] = {0, 0}, extremes[3] = {-1e300, -1e300, -1e300};
+  struct {
+    double grains, radius_squared, volume, energy, load[3];
+  } sums{};
+  struct {
+    double minus_radius, radius, minus_density, density, high[3], minus_low[3];
+  } extremes;
+  std::fill_n(&extremes.minus_radius, sizeof extremes / sizeof(double), -1e300);
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & fix_->groupbit) == 0) continue;
-    const double r = atom->radius[i], volume = 4. / 3 * M_PI * r * r * r;
-    sums[0] += 1;
-    sums[1] += volume;
-    extremes[0] = std::max(extremes[0], -r);
-    extremes[1] = std::max(extremes[1], r);
-    extremes[2] = std::max(extremes[2], -atom->rmass[i] / volume);
+    const double r = atom->radius[i], volume = sphere_volume(r), density = atom->rmass[i] / volume;
+    sums.grains += 1;
+    sums.radius_squared += r * r;
+    sums.volume += volume;
+    sums.energy += 0.5 * atom->rmass[i] *
+                   (Eigen::Map<const Vec3>(atom->v[i]).squaredNorm() +
+                    0.4 * r * r * Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
+    extremes.minus_radius = std::max(extremes.minus_radius, -r);
+    extremes.radius = std::max(extremes.radius, r);
+    extremes.minus_density = std::max(extremes.minus_density, -density);
+    extremes.density = std::max(extremes.density, density);
+    for (int a = 0; a < 3; ++a) {
+      sums.load[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+      extremes.high[a] = std::max(extremes.high[a], atom->x[i][a] + r);
+      extremes.minus_low[a] = std::max(extremes.minus_low[a], r - atom->x[i][a]);
+    }
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, lmp_->world);
-  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, &extremes, sizeof extremes / sizeof(double), MPI_DOUBLE, MPI_MAX, lmp_->world);
   Summary summary;
-  summary.grains = static_cast<std::int64_t>(sums[0]);
+  summary.grains = static_cast<std::int64_t>(sums.grains);
   if (summary.grains == 0) return summary;
-  summary.solid_volume = sums[1];
-  summary.smallest_radius = -extremes[0];
-  summary.largest_radius = extremes[1];
-  summary.smallest_density = -extremes[2];
+  summary.solid_volume = sums.volume;
+  summary.sauter_diameter = 6 * sums.volume / (4 * M_PI * sums.radius_squared);
+  summary.smallest_radius = -extremes.minus_radius;
+  summary.largest_radius = extremes.radius;
+  summary.smallest_density = -extremes.minus_density;
+  summary.largest_density = extremes.density;
+  summary.kinetic_energy = sums.energy;
+  summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
+  for (int a = 0; a < 3; ++a)
+    summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  summary.packing = sums.volume / summary.extent.prod();
   return summary;
+}
+
+std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& bounds) const {
+  std::vector<double> counts(bounds.size() + 1, 0);
+  for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+    if ((lmp_->atom->mask[i] & fix_->groupbit) == 0) continue;
+    const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * lmp_->atom->radius[i]);
+    counts[static_cast<std::size_t>(above - bounds.begin())] += 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_DOUBLE, MPI_SUM,
+                lmp_->world);
+  return counts;
+}
+
+Vec3 LiggghtsPort::mean_load(int groupbit) const {
+  double sums[4] = {0, 0, 0, 0};
+  for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+    if ((lmp_->atom->mask[i] & groupbit & fix_->groupbit) == 0) continue;
+    for (int a = 0; a < 3; ++a) sums[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+    sums[3] += 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  return Vec3(sums[0], sums[1], sums[2]) / std::max(1., sums[3]);
+}
+
+PastRun LiggghtsPort::past_run() const {
+  // Verlet leaves the loop's wall time in the timer, and `run` the number of steps.
+  const double steps = lmp_->update->nsteps;
+  double seconds = lmp_->timer->array[TIME_LOOP];
+  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, lmp_->world);
+  const double grains = static_cast<double>(lmp_->atom->natoms);
+  constexpr double least_seconds = 0.1;
+  if (!(seconds > least_seconds) || steps * grains <= 0) return {};
+  return {steps * grains, seconds};
 }
 
 }  // namespace suffuse::coupling

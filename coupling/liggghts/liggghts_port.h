@@ -15,6 +15,12 @@ class FixHydrodynamicForce;
 
 namespace suffuse::coupling {
 
+/// LIGGGHTS's last run in this process.
+struct PastRun {
+  double grain_steps = 0;  ///< steps times grains; 0: none that is long enough to tell
+  double seconds = 0;
+};
+
 /// The spheres of a LIGGGHTS instance. Between `begin` and `end` LIGGGHTS is inside one run: it is set up
 /// once, and `advance` goes on by some steps, with thermo output, dumps and fixes as in `run`.
 class LiggghtsPort final : public ParticlePort {
@@ -36,8 +42,14 @@ class LiggghtsPort final : public ParticlePort {
   void end_after(int substeps);
   void end();
 
+  /// Does any fix integrate the motion of grains?
+  bool anything_moves() const;
+
   /// Has a fix or a signal asked to end the run? The same on all ranks.
   bool stop_requested() const;
+
+  /// Computes will be asked for values when the next so many steps are done.
+  void announce_values(int substeps);
 
   /// Sets LIGGGHTS's time step, s.
   void set_time_step(double step);
@@ -56,17 +68,32 @@ class LiggghtsPort final : public ParticlePort {
   /// the same rank.
   lbm::Decomposition decomposition(const Vec3& low, double spacing, const lbm::Index3& cells) const;
 
-  /// Sum of radius cubed etc. over all grains of the fix's group. Collective.
+  /// All grains of the fix's group. Collective.
   struct Summary {
     std::int64_t grains = 0;
-    double smallest_radius = 0, largest_radius = 0;  ///< m
-    double smallest_density = 0;                     ///< kg/m^3
-    double solid_volume = 0;                         ///< m^3
+    double smallest_radius = 0, largest_radius = 0;    ///< m
+    double sauter_diameter = 0;                        ///< sum d^3/sum d^2, m
+    double smallest_density = 0, largest_density = 0;  ///< kg/m^3
+    double solid_volume = 0;                           ///< m^3
+    Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
+    double packing = 0;                                ///< solid volume over that of this box
+    double kinetic_energy = 0;                         ///< J
+    Vec3 load = Vec3::Zero();                          ///< sum of the fluid's forces, N
   };
   Summary summary() const;
 
+  /// How many grains of the fix's group have diameters in each class: below the first bound, between the
+  /// first and second, ..., above the last (m, rising). Collective.
+  std::vector<double> grains_by_size(const std::vector<double>& bounds) const;
+
+  /// From the timer of the last `run`. Collective.
+  PastRun past_run() const;
+
+  /// Mean of the fluid's force on the grains of a LIGGGHTS group, N; zero if it has none. Collective.
+  Vec3 mean_load(int groupbit) const;
+
  private:
-  bool anything_moves() const;
+  void keep_memory();
 
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
@@ -75,7 +102,7 @@ class LiggghtsPort final : public ParticlePort {
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
   std::vector<int> id_;
 };
 

@@ -8,6 +8,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
 #include "suffuse/coupling/virtual_mass.h"
+#include "suffuse/lbm/health.h"
 
 namespace suffuse::coupling {
 
@@ -17,6 +18,18 @@ lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Un
   lbm::FluidSettings fluid = settings.fluid;
   fluid.collision.relaxation_time = units.relaxation_time();
   return fluid;
+}
+
+CoupledSettings with_coefficients(CoupledSettings settings) {
+  SolidSettings& solids = settings.solids;
+  solids.automatic_coefficient &= solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  solids.cells.own_coefficients |= solids.automatic_coefficient;
+  return settings;
+}
+
+CoefficientLaw law_of(const SolidSettings& solids) {
+  if (!solids.automatic_coefficient) return {};
+  return solids.law ? *solids.law : coefficient_law(solids.cells.solid_operator);
 }
 
 /// DEM steps a fluid step: as asked for, or as many as the grains' time step needs. The two clocks must agree
@@ -52,13 +65,15 @@ Vec3 vector_at(const double* values, int n) {
 
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                                      const Vec3& origin, ParticlePort& grains)
-    : settings_(settings),
+    : settings_(with_coefficients(settings)),
       units_(settings.units),
       origin_(origin),
       grains_(grains),
       fluid_(fluid_settings(settings, units_), decomposition),
-      mapping_(settings.solids, fluid_.instruction_set(), fluid_.use_partial_solids(settings.solids.cells),
-               decomposition.local_box()),
+      cells_(fluid_.use_partial_solids(settings_.solids.cells)),
+      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box()),
+      pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
+      law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
   set_pressure_gradient(settings.pressure_gradient);
 }
@@ -75,6 +90,53 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
 void CoupledSimulation::map() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.mapping);
+  read_spheres(grains);
+  remapped_ = mapping_.update(spheres_);
+  if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
+  survey(grains);
+  read_spheres(grains_.grains());
+  remapped_ += mapping_.update(spheres_);
+}
+
+/// The same answer on all ranks.
+bool CoupledSimulation::survey_due(const GrainArrays& grains) const {
+  const SolidSettings& solids = settings_.solids;
+  const bool in_turn = fluid_.steps() % solids.survey_every == 0;
+  const double distance = solids.survey_distance * units_.spacing();
+  const GrainMemory memory = grains_.memory();
+  int due = 0;
+  for (int n = 0; n < grains.owned && due == 0; ++n) {
+    const double* h = memory.history + kHistoryLength * n;
+    const Vec3 moved = vector_at(grains.position, n) - Vec3(Eigen::Map<const Vec3>(h + history::surveyed_at));
+    if (h[history::coefficient] == 0 || (in_turn && moved.norm() > distance)) due = 1;
+  }
+  int any = 0;
+  MPI_Allreduce(&due, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  return any != 0;
+}
+
+/// Finds the coefficient of each owned grain from the pores that all ranks see around it.
+void CoupledSimulation::survey(const GrainArrays& grains) {
+  const std::vector<PoreSums> mine = pores_.sums(spheres_);
+  force_.assign(3 * mine.size(), 0);
+  torque_.assign(3 * mine.size(), 0);
+  for (std::size_t n = 0; n < mine.size(); ++n) {
+    force_[3 * n] = mine[n].volume;
+    force_[3 * n + 1] = mine[n].surface;
+  }
+  grains_.sum_over_copies(force_, torque_);
+  const GrainMemory memory = grains_.memory();
+  for (int n = 0; n < grains.owned; ++n) {
+    const double radius = grains.radius[n] / units_.spacing();
+    const double* sums = force_.data() + 3 * n;
+    double* h = memory.history + kHistoryLength * n;
+    h[history::coefficient] = law_(2 * radius, crowding_of({sums[0], sums[1]}, radius));
+    Eigen::Map<Vec3>(h + history::surveyed_at) = vector_at(grains.position, n);
+  }
+  ++surveys_;
+}
+
+void CoupledSimulation::read_spheres(const GrainArrays& grains) {
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
@@ -88,8 +150,10 @@ void CoupledSimulation::map() {
     sphere.radius = grains.radius[n] * length;
     sphere.id = grains.id[n];
     sphere.coefficient = settings_.solids.cells.coefficient;
+    if (!settings_.solids.automatic_coefficient) continue;
+    const double known = grains.coefficient[n * grains.coefficient_stride];
+    sphere.coefficient = known > 0 ? known : law_(2 * sphere.radius, 0);
   }
-  remapped_ = mapping_.update(spheres_);
 }
 
 /// Exchange and lead of each sphere's cells on all ranks, summed at its owner, in SI.
@@ -160,6 +224,25 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   loads_are_current_ = true;
 }
 
+/// Before a discrete-element code is given what it would choke on.
+void CoupledSimulation::require_finite(const GrainArrays& grains) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < 3 * static_cast<std::size_t>(grains.owned); ++n)
+    sum += 0 * force_[n] + 0 * torque_[n];
+  int broken = sum == 0 ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &broken, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  if (broken == 0) return;
+  lbm::FluidExtremes extremes;
+  extremes.finite = false;
+  lbm::require_stable(extremes, units_, time_si(), 1, "lbm run");
+}
+
+double CoupledSimulation::overlap() const {
+  double sum = mapping_.overlap();
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, fluid_.decomposition().communicator());
+  return sum;
+}
+
 void CoupledSimulation::refresh_loads() {
   int stale = loads_are_current_ ? 0 : 1, any = 0;
   MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
@@ -167,6 +250,7 @@ void CoupledSimulation::refresh_loads() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
+  require_finite(grains);
   hand_over(grains);
 }
 

@@ -219,6 +219,23 @@ double SolidMapping::volume_of(std::size_t n) const {
   return settings_.cells.own_coefficients ? sum / m.sphere.coefficient : sum;
 }
 
+Vec3 SolidMapping::solid_flux(const lbm::Index3& cell) const {
+  const std::ptrdiff_t at = cell[0] - box_.lo[0] + arrays_.row_pitch * (cell[1] - box_.lo[1]) +
+                            arrays_.plane_pitch * (cell[2] - box_.lo[2]);
+  if (!(arrays_.strength[at] > 0)) return Vec3::Zero();
+  const double share = std::min(1.f, arrays_.fraction[at]) / static_cast<double>(arrays_.strength[at]);
+  return share * Vec3(arrays_.momentum[0][at], arrays_.momentum[1][at], arrays_.momentum[2][at]);
+}
+
+double SolidMapping::overlap() const {
+  double sum = 0;
+  lbm::for_each_cell({{0, 0, 0}, box_.extents()}, [&](int x, int y, int z) {
+    const float fraction = arrays_.fraction[x + arrays_.row_pitch * y + arrays_.plane_pitch * z];
+    sum += std::max(0., static_cast<double>(fraction) - 1);
+  });
+  return sum;
+}
+
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + entries_.capacity() * sizeof(float) +
          order_.capacity() * sizeof(std::size_t);

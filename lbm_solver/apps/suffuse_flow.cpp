@@ -12,6 +12,7 @@
 #include "suffuse/common/progress.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/flow_case.h"
+#include "suffuse/lbm/health.h"
 
 namespace {
 
@@ -148,20 +149,12 @@ class FlowRun {
 
   void report(ProgressLine& progress, long first, long now, long last) {
     const FluidExtremes extremes = fluid_.extremes();
-    const double mach = extremes.largest_speed * std::sqrt(3.);
-    if (!extremes.finite || mach > 1)
-      throw UserError(fmt::format(
-          "fluid: at {:.4g} s {}; lower timestep or spacing, take collision central_moments, or ramp "
-          "the boundary values more slowly",
-          units_.time_to_si(static_cast<double>(now)),
-          extremes.finite ? fmt::format("the Mach number reached {:.2f}", mach)
-                          : std::string("a density or velocity is not a number")));
+    require_stable(extremes, units_, units_.time_to_si(static_cast<double>(now)), 1, "fluid");
     const double cells = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
     details_ =
-        fmt::format("{:.4g} s  {:.1f} MLUPS  Mach {:.3f}  density {:+.2f} .. {:+.2f} %",
-                    units_.time_to_si(static_cast<double>(now)),
+        fmt::format("{:.4g} s  {:.1f} MLUPS  {}", units_.time_to_si(static_cast<double>(now)),
                     step_seconds_ > 0 ? cells * static_cast<double>(now - first) / step_seconds_ * 1e-6 : 0.,
-                    mach, 100 * (extremes.smallest_density - 1), 100 * (extremes.largest_density - 1));
+                    health_text(extremes));
     progress.update(static_cast<double>(now - first) / static_cast<double>(last - first), details_);
   }
 

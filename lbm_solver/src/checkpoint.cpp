@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "suffuse/common/error.h"
@@ -79,6 +80,7 @@ void read_labels(Fluid& fluid, const Hdf5File& file) {
   whole.offset.assign(3, 0);
   whole.count = whole.whole;
   const std::vector<std::uint8_t> labels = file.read<std::uint8_t>("/solid_labels", whole);
+  if (std::all_of(labels.begin(), labels.end(), [](std::uint8_t label) { return label == 0; })) return;
   const Index3& n = fluid.decomposition().cells();
   fluid.set_solids([&](const Index3& c) {
     return labels[size(c[0]) + size(n[0]) * (size(c[1]) + size(n[1]) * size(c[2]))];

@@ -18,7 +18,8 @@ using suffuse::throw_user_error;
 
 namespace {
 // Places in a grain's history, as in coupling's particle_port.h.
-constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20;
+constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20,
+              kCoefficient = 27;
 constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce::kHistoryValues;
 }  // namespace
 
@@ -42,7 +43,8 @@ FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg)
   extvector = 1;
   restart_peratom = 1;
   create_attribute = 1;
-  comm_forward = comm_reverse = 6;
+  comm_forward = 7;
+  comm_reverse = 6;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -187,16 +189,18 @@ int FixHydrodynamicForce::maxsize_restart() {
 
 int FixHydrodynamicForce::pack_comm(int n, int* list, double* buffer, int, int*) {
   for (int k = 0; k < n; ++k) {
-    std::copy_n(atom->v[list[k]], 3, buffer + 6 * k);
-    std::copy_n(atom->omega[list[k]], 3, buffer + 6 * k + 3);
+    std::copy_n(atom->v[list[k]], 3, buffer + 7 * k);
+    std::copy_n(atom->omega[list[k]], 3, buffer + 7 * k + 3);
+    buffer[7 * k + 6] = history_[list[k]][kCoefficient];
   }
-  return 6;
+  return 7;
 }
 
 void FixHydrodynamicForce::unpack_comm(int n, int first, double* buffer) {
   for (int k = 0; k < n; ++k) {
-    std::copy_n(buffer + 6 * k, 3, atom->v[first + k]);
-    std::copy_n(buffer + 6 * k + 3, 3, atom->omega[first + k]);
+    std::copy_n(buffer + 7 * k, 3, atom->v[first + k]);
+    std::copy_n(buffer + 7 * k + 3, 3, atom->omega[first + k]);
+    history_[first + k][kCoefficient] = buffer[7 * k + 6];
   }
 }
 

@@ -24,7 +24,7 @@ Flight fly(double tau, double diameter, double ratio, double speed) {
   grain.velocity = speed * Vec3(0.94, 0.28, 0.19);
   grain.angular_velocity = Vec3(0, 0, speed / diameter);
   const int cells = diameter > 8 ? 40 : 24;
-  Scene scene(lattice_settings(tau, default_solids(std::max(5., diameter))), {cells, cells, cells}, {grain});
+  Scene scene(lattice_settings(tau, default_solids()), {cells, cells, cells}, {grain});
   scene.grains.mobile = true;
   scene.run(5);
   scene.grains.free = true;

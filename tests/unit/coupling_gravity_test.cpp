@@ -11,7 +11,7 @@ using namespace suffuse::coupling::test;
 namespace {
 
 SolidSettings solids_with(lbm::SolidOperator solid_operator) {
-  SolidSettings solids = default_solids(5);
+  SolidSettings solids = fixed_solids(5);
   solids.cells.solid_operator = solid_operator;
   if (solid_operator == lbm::SolidOperator::sc1 || solid_operator == lbm::SolidOperator::sc2) {
     solids.cells.weighting = lbm::SolidWeighting::noble_torczynski;
@@ -52,7 +52,7 @@ TEST_CASE("a grain held in still water is lifted by the weight of the water it d
 }
 
 TEST_CASE("a grain of the water's density released in a closed box under gravity stays where it is") {
-  CoupledSettings settings = lattice_settings(0.7, default_solids(5));
+  CoupledSettings settings = lattice_settings(0.7, fixed_solids(5));
   settings.gravity = Vec3(0, 0, -1e-5);
   for (auto& face : settings.fluid.faces) face.kind = lbm::FaceKind::no_slip;
   Scene scene(settings, {16, 16, 16}, {sphere_at(Vec3(8.2, 7.7, 8.4), 2.5, 1)});

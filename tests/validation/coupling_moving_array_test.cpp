@@ -61,7 +61,7 @@ double at_rest(const SolidSettings& solids, double diameter) {
 
 TEST_CASE("drag does not change by 0.5 % when grains and fluid move together") {
   const double diameter = 5.4;
-  SolidSettings solids = default_solids(diameter, 0.08);
+  SolidSettings solids = default_solids();
   const double still = at_rest(solids, diameter);
   for (const double speed : {0.005, 0.02, 0.05}) {
     const Run moving = run(solids, diameter, speed, 5);
@@ -83,7 +83,7 @@ TEST_CASE("the force noise of a sphere that crosses cells is below 1 %") {
        {Choice{"exact", FractionMethod::exact, 5, 0.0015}, Choice{"linear", FractionMethod::linear, 5, 0.003},
         Choice{"subcells 5", FractionMethod::subcells, 5, 0.0045},
         Choice{"subcells 10", FractionMethod::subcells, 10, 0.0015}}) {
-    SolidSettings solids = default_solids(5.4, 0.08);
+    SolidSettings solids = default_solids();
     solids.fraction = c.method;
     solids.subcells = c.subcells;
     for (const double speed : {0.005, 0.02}) {

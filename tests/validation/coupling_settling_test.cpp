@@ -64,7 +64,7 @@ struct Point {
 std::vector<Point> settle(const Experiment& e, double spacing, double relaxation_time, bool thesis = false) {
   const double diameter = kDiameter / spacing;
   CoupledSettings settings =
-      thesis ? thesis_settings(relaxation_time) : lattice_settings(relaxation_time, default_solids(diameter));
+      thesis ? thesis_settings(relaxation_time) : lattice_settings(relaxation_time, default_solids());
   settings.units.density = e.fluid_density;
   settings.units.viscosity = e.viscosity;
   settings.units.spacing = spacing;

@@ -88,7 +88,7 @@ TEST_CASE("drag of a single sphere at five cells a diameter with the thesis's pr
 }
 
 TEST_CASE("drag of a single sphere at five cells a diameter with the default", "[.long]") {
-  report("default", lattice_settings(kTau, default_solids(kDiameter)), 0.03, 0.03);
+  report("default", lattice_settings(kTau, default_solids()), 0.03, 0.03);
 }
 
 TEST_CASE("drag of a sphere in a periodic box matches Hasimoto's series at five and ten cells a diameter") {
@@ -97,7 +97,7 @@ TEST_CASE("drag of a sphere in a periodic box matches Hasimoto's series at five 
   const double diameter = GENERATE(5., 10.);
   const double tau = GENERATE(0.59, 1.2);
   const int cells = static_cast<int>(4 * diameter);
-  CoupledSettings settings = lattice_settings(tau, default_solids(diameter));
+  CoupledSettings settings = lattice_settings(tau, default_solids());
   const double nu = settings.units.viscosity, driven = 1e-6 * nu * nu;
   settings.pressure_gradient = Vec3(driven, 0, 0);
   const double offset = GENERATE(0., 0.37);

@@ -41,7 +41,7 @@ enum class Motion { towards_wall, towards_sphere, along_wall };
 /// The sphere stays where it is while its cells are given a velocity: the quasi-steady force. The other walls
 /// are four diameters off.
 double drag_near_plane(double diameter, double gap, Motion motion) {
-  CoupledSettings settings = lattice_settings(1, default_solids(diameter));
+  CoupledSettings settings = lattice_settings(1, default_solids());
   for (auto& face : settings.fluid.faces) face.kind = lbm::FaceKind::no_slip;
   if (motion == Motion::towards_sphere) settings.fluid.faces[4].kind = lbm::FaceKind::free_slip;
   const int width = static_cast<int>(8 * diameter), height = static_cast<int>(6 * diameter);
@@ -66,7 +66,7 @@ TEST_CASE("the torque on a rotating sphere is 8 pi mu a^3 w over 1 - c in a peri
   // Rotlets of a cubic array turn each other by -T/(6 mu V), which is -c of a sphere's own turning.
   const double diameter = GENERATE(5., 10.), tau = GENERATE(0.6, 1.2);
   const int cells = static_cast<int>(3 * diameter);
-  Scene scene(lattice_settings(tau, default_solids(diameter)), {cells, cells, cells},
+  Scene scene(lattice_settings(tau, default_solids()), {cells, cells, cells},
               {sphere_at(Vec3(0.5 * cells + 0.3, 0.5 * cells + 0.1, 0.5 * cells + 0.4), 0.5 * diameter)});
   const double nu = lbm::viscosity_of(tau), spin = 1e-4, a = 0.5 * diameter;
   scene.grains.list[0].angular_velocity = spin * Vec3(0.6, 0, 0.8);

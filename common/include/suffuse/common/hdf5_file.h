@@ -34,7 +34,7 @@ class Hdf5File {
   /// Names of the objects right under a group, sorted.
   std::vector<std::string> names_in(const std::string& group) const;
 
-  /// Element types: double, float, std::uint8_t. `dataset` is created by create_array.
+  /// Element types: double, float, std::uint8_t, std::int64_t. `dataset` is created by create_array.
   template <class T>
   void create_array(const std::string& dataset, const std::vector<std::size_t>& extents);
   template <class T>

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/coupling/solid_mapping.h"
@@ -24,7 +25,8 @@ class CoupledSimulation {
   CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                     const Vec3& origin, ParticlePort& grains);
 
-  /// One fluid step and the DEM steps that belong to it. Collective.
+  /// One fluid step and the DEM steps that belong to it. A UserError if the fluid's forces are no numbers any
+  /// more. Collective.
   void step();
 
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
@@ -48,6 +50,14 @@ class CoupledSimulation {
   void set_substeps(int substeps);
   double time_si() const { return units_.time_to_si(static_cast<double>(fluid_.steps())); }
 
+  /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
+  double overlap() const;
+
+  /// k of sphere n (copies included) as the last step mapped it.
+  double coefficient_of(std::size_t n) const { return spheres_[n].coefficient; }
+  /// How often automatic coefficients were found.
+  long surveys() const { return surveys_; }
+
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
   CoupledTimes& times() { return times_; }
@@ -59,17 +69,25 @@ class CoupledSimulation {
   void set_pressure_gradient(const Vec3& si);
 
  private:
+  void read_spheres(const GrainArrays& grains);
+  bool survey_due(const GrainArrays& grains) const;
+  void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
+  void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
   lbm::Units units_;
   Vec3 origin_;
   ParticlePort& grains_;
   lbm::Fluid fluid_;
+  lbm::PartialSolidArrays cells_;
   SolidMapping mapping_;
+  PoreSurvey pores_;
+  CoefficientLaw law_;
   int substeps_ = 1;
   std::size_t remapped_ = 0;
+  long surveys_ = 0;
   bool loads_are_current_ = true;
   std::vector<LatticeSphere> spheres_;
   std::vector<double> force_, torque_, lead_, spin_lead_;

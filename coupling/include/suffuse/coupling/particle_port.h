@@ -1,28 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace suffuse::coupling {
-
-/// The spheres that one rank knows, in SI: those it owns first, then copies of others' (ghosts, periodic
-/// images among them), which are where the image is. Vectors are x y z, one grain after the other.
-struct GrainArrays {
-  int owned = 0;
-  int total = 0;                             ///< owned and copies
-  const double* position = nullptr;          ///< 3 total, m
-  const double* velocity = nullptr;          ///< 3 total, m/s
-  const double* angular_velocity = nullptr;  ///< 3 total, rad/s
-  const double* radius = nullptr;            ///< total, m
-  const double* mass = nullptr;              ///< owned, kg
-  const int* id = nullptr;                   ///< total; a copy has its owner's
-};
-
-/// What stays with a grain from one fluid step to the next, wherever it migrates; SI, owned grains only.
-struct GrainMemory {
-  double* load = nullptr;  ///< 6 per grain, applied in every DEM step until the next fluid step: force (N),
-                           ///< torque about the centre (N m)
-  double* history = nullptr;  ///< kHistoryLength per grain, in the order of `history`
-};
 
 /// Places in a grain's history: what the last fluid step saw and gave.
 namespace history {
@@ -35,8 +16,34 @@ inline constexpr int known = 12;                             ///< 1 once there w
 inline constexpr int acceleration = 13, angular_acceleration = 16;
 inline constexpr int virtual_mass = 19, virtual_moment = 20;
 inline constexpr int lead = 21, spin_lead = 24;  ///< of the fluid that it holds: kg m/s, kg m^2/s
+/// k of the solid weighting where it is automatic (0: not known yet), and where the grain was when it was
+/// found, m.
+inline constexpr int coefficient = 27, surveyed_at = 28;
 }  // namespace history
-inline constexpr int kHistoryLength = 27;
+inline constexpr int kHistoryLength = 31;
+
+/// The spheres that one rank knows, in SI: those it owns first, then copies of others' (ghosts, periodic
+/// images among them), which are where the image is. Vectors are x y z, one grain after the other.
+struct GrainArrays {
+  int owned = 0;
+  int total = 0;                             ///< owned and copies
+  const double* position = nullptr;          ///< 3 total, m
+  const double* velocity = nullptr;          ///< 3 total, m/s
+  const double* angular_velocity = nullptr;  ///< 3 total, rad/s
+  const double* radius = nullptr;            ///< total, m
+  const double* mass = nullptr;              ///< owned, kg
+  const int* id = nullptr;                   ///< total; a copy has its owner's
+  const double* coefficient = nullptr;  ///< total, each `coefficient_stride` values after the last: a copy
+                                        ///< has what its owner's history held at this call
+  std::ptrdiff_t coefficient_stride = kHistoryLength;
+};
+
+/// What stays with a grain from one fluid step to the next, wherever it migrates; SI, owned grains only.
+struct GrainMemory {
+  double* load = nullptr;  ///< 6 per grain, applied in every DEM step until the next fluid step: force (N),
+                           ///< torque about the centre (N m)
+  double* history = nullptr;  ///< kHistoryLength per grain, in the order of `history`
+};
 
 /// What the coupling asks of a discrete-element code.
 class ParticlePort {

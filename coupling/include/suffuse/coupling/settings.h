@@ -4,6 +4,7 @@
 #include <string>
 
 #include "suffuse/common/linear_algebra.h"
+#include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/mapped_sphere.h"
 #include "suffuse/lbm/fluid.h"
 #include "suffuse/lbm/units.h"
@@ -12,7 +13,13 @@ namespace suffuse::coupling {
 
 struct SolidSettings {
   lbm::PartialSolidSettings cells;
-  bool automatic_coefficient = true;  ///< calibrated, from each grain's diameter and neighbourhood
+  /// Calibrated, from each grain's diameter and the pores around it; with the viscosity-independent weighting
+  /// only. Found anew when grains come, and at steps that are multiples of `survey_every` if a grain has
+  /// moved by `survey_distance` (cells) since.
+  bool automatic_coefficient = true;
+  std::optional<CoefficientLaw> law;  ///< else coefficient_law of the operator
+  int survey_every = 20;
+  double survey_distance = 0.25;
   FractionMethod fraction = FractionMethod::exact;
   int subcells = 5;              ///< per edge, for FractionMethod::subcells
   double remap_distance = 1e-3;  ///< cells: a grain that moved less is not mapped again

@@ -30,6 +30,13 @@ class SolidMapping {
   /// Sum of the fractions of sphere n in this rank's cells: its volume there, in cells.
   double volume_of(std::size_t n) const;
 
+  /// Solids' volume times their velocity in a cell of this rank (numbered over the whole box), cells per
+  /// step; fractions that add up to more than one shrink in proportion.
+  Vec3 solid_flux(const lbm::Index3& cell) const;
+
+  /// What the fractions of this rank's cells add up to beyond one, cells.
+  double overlap() const;
+
   std::size_t spheres() const { return mapped_.size(); }
   /// The order in which loads are read fastest: along z.
   const std::vector<std::size_t>& order() const { return order_; }

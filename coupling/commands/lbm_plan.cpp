@@ -1,0 +1,113 @@
+#include "lbm_plan.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "comm.h"
+#include "lammps.h"
+#include "suffuse/common/progress.h"
+#include "timer.h"
+#include "update.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+/// Grain steps a second and core where this process has not run any yet (docs/performance_dry.md).
+constexpr double kGrainStepsPerSecond = 4.5e6;
+
+/// The grains, held: steps of the trial move nothing.
+class HeldGrains final : public ParticlePort {
+ public:
+  explicit HeldGrains(ParticlePort& port) : port_(port) {}
+  GrainArrays grains() override { return port_.grains(); }
+  void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
+  GrainMemory memory() override { return {}; }
+  bool reads_loads(int) override { return false; }
+  double time_step() const override { return port_.time_step(); }
+  void advance(int) override {}
+
+ private:
+  ParticlePort& port_;
+};
+
+double slowest(double mine, MPI_Comm communicator) {
+  MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return mine;
+}
+
+struct Costs {
+  double fluid = 0, mapping = 0, exchange = 0, grains = 0;  ///< s a fluid step
+  double bytes = 0;                                         ///< of all ranks
+};
+
+Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, const Vec3& low,
+              LiggghtsPort& port, bool grains_move) {
+  const MPI_Comm communicator = parts.communicator();
+  HeldGrains held(port);
+  CoupledSettings trial = settings;
+  trial.solids.remap_distance = -1;  // every grain is mapped in every step, as if it moved
+  CoupledSimulation simulation(trial, parts, low, held);
+  constexpr int warm_up = 2, steps = 6;
+  for (int n = 0; n < warm_up; ++n) simulation.step();
+  simulation.times() = {};
+  for (int n = 0; n < steps; ++n) simulation.step();
+  Costs costs;
+  costs.fluid = slowest(simulation.times().fluid, communicator) / steps;
+  if (grains_move) {
+    costs.mapping = slowest(simulation.times().mapping, communicator) / steps;
+    const double start = MPI_Wtime();
+    LatticeLoad all;
+    for (const std::size_t n : simulation.mapping().order())
+      all.force[0] += simulation.mapping().load_of(n, simulation.units().relaxation_time()).force[0];
+    costs.exchange = slowest(MPI_Wtime() - start + 1e-30 * std::abs(all.force[0]), communicator);
+  }
+  costs.bytes = static_cast<double>(simulation.fluid().bytes() + simulation.mapping().bytes());
+  MPI_Allreduce(MPI_IN_PLACE, &costs.bytes, 1, MPI_DOUBLE, MPI_SUM, communicator);
+  return costs;
+}
+
+}  // namespace
+
+void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm::Decomposition& parts,
+              const Vec3& low, LiggghtsPort& port, double time) {
+  const lbm::Units units(settings.units);
+  const LiggghtsPort::Summary grains = port.summary();
+  const bool grains_move = grains.grains > 0 && port.anything_moves();
+  Costs costs = measure(settings, parts, low, port, grains_move);
+  const double count = static_cast<double>(grains.grains);
+  const PastRun past = port.past_run();
+  const double speed =
+      past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * lmp->comm->nprocs;
+  if (grains_move) costs.grains = settings.substeps * count / speed;
+  const double steps = std::max(1., std::round(units.time_to_lattice(time)));
+  const double a_step = costs.fluid + costs.mapping + costs.exchange + costs.grains;
+  if (lmp->comm->me != 0) return;
+  const lbm::Index3& cells = parts.cells();
+  std::string text = fmt::format("lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells", time, steps,
+                                 cells[0], cells[1], cells[2]);
+  text +=
+      fmt::format(", {} DEM steps each; {:.3g} GB for the fluid\n", settings.substeps, costs.bytes * 1e-9);
+  text += "lbm plan: " + units.summary() + "\n";
+  if (grains.grains > 0)
+    text +=
+        fmt::format("lbm plan: {} grains, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}\n",
+                    grains.grains, 2 * grains.smallest_radius / units.spacing(),
+                    2 * grains.largest_radius / units.spacing(), grains.sauter_diameter / units.spacing());
+  text += fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
+  const auto row = [&](const char* name, double seconds) {
+    text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));
+  };
+  row("fluid", costs.fluid);
+  row("solid mapping", costs.mapping);
+  row("forces on grains", costs.exchange);
+  row(past.grain_steps > 0 ? "grains, as last run" : "grains, usual core", costs.grains);
+  row("together", a_step);
+  for (std::FILE* to : {lmp->screen, lmp->logfile})
+    if (to != nullptr) fmt::print(to, "{}", text);
+}
+
+}  // namespace suffuse::coupling

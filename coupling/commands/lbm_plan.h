@@ -1,0 +1,14 @@
+#pragma once
+
+#include "../liggghts/liggghts_port.h"
+#include "suffuse/coupling/coupled_simulation.h"
+
+namespace suffuse::coupling {
+
+/// `lbm plan TIME`: what a run would cost. Times a few steps of a fluid of the same size and settings and a
+/// mapping of the grains as they are, and throws both away; grains are counted at the speed of this process's
+/// last run, or at that of a usual core. Nothing of the script's state changes. Collective.
+void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm::Decomposition& parts,
+              const Vec3& low, LiggghtsPort& port, double time);
+
+}  // namespace suffuse::coupling

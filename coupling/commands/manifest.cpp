@@ -1,0 +1,135 @@
+#include "manifest.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+
+#include "suffuse/common/progress.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+std::string faces_text(const lbm::FaceConditions& faces) {
+  std::string text;
+  for (int f = 0; f < lbm::kFaces; ++f)
+    text += fmt::format("{}{} {}", f == 0 ? "" : ", ", lbm::name_of(static_cast<lbm::Face>(f)),
+                        lbm::name_of(faces[static_cast<std::size_t>(f)].kind));
+  return text;
+}
+
+std::string solids_text(const SolidSettings& solids) {
+  std::string text = fmt::format("operator {}, weighting {}", lbm::name_of(solids.cells.solid_operator),
+                                 lbm::name_of(solids.cells.weighting));
+  if (solids.cells.weighting == lbm::SolidWeighting::viscosity_independent)
+    text += solids.automatic_coefficient ? ", coefficient calibrated"
+                                         : fmt::format(", coefficient {:g}", solids.cells.coefficient);
+  switch (solids.fraction) {
+    case FractionMethod::exact:
+      return text + ", fraction exact";
+    case FractionMethod::linear:
+      return text + ", fraction linear";
+    case FractionMethod::subcells:
+      return text + fmt::format(", fraction {0} x {0} x {0} sub-cells", solids.subcells);
+  }
+  return text;
+}
+
+std::string grains_text(const LiggghtsPort::Summary& grains, double spacing) {
+  if (grains.grains == 0) return "none: the fluid flows alone";
+  return fmt::format("{}, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}", grains.grains,
+                     2 * grains.smallest_radius / spacing, 2 * grains.largest_radius / spacing,
+                     grains.sauter_diameter / spacing);
+}
+
+/// Axis across which two different pressures, or a pressure and a velocity, are given; none: -1.
+int driven_axis(const lbm::FaceConditions& faces) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const std::size_t side : {2 * axis, 2 * axis + 1})
+      if (faces[side].kind == lbm::FaceKind::pressure) return static_cast<int>(axis);
+  return -1;
+}
+
+/// Thinner than this there is no bed.
+constexpr double kBedPacking = 0.3;
+
+std::string bed_text(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains) {
+  const int axis = driven_axis(simulation.fluid().settings().faces);
+  if (grains.packing < kBedPacking || axis < 0) return "";
+  const double time = pressure_diffusion_time(grains.extent[axis], 1 - grains.packing, grains.sauter_diameter,
+                                              simulation.units());
+  return fmt::format(
+      "bed         {:.4g} m, porosity {:.3g}: pressure spreads through it in about {:.2g} s; change boundary "
+      "values over several times that",
+      grains.extent[axis], 1 - grains.packing, time);
+}
+
+}  // namespace
+
+std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
+                                  const std::vector<EffectChoice>& effects) {
+  const lbm::Fluid& fluid = simulation.fluid();
+  const lbm::Units& units = simulation.units();
+  const lbm::Index3& cells = fluid.decomposition().cells();
+  const lbm::CollisionSettings& collision = fluid.settings().collision;
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format(
+      "lattice     {} x {} x {} cells on {} ranks, {}, {} kernels, {}{}", cells[0], cells[1], cells[2],
+      fluid.decomposition().ranks(), name_of(collision.collision_operator), name_of(fluid.instruction_set()),
+      fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
+      collision.incompressible ? ", incompressible" : ""));
+  lines.push_back("            " + units.summary());
+  lines.push_back("faces       " + faces_text(fluid.settings().faces));
+  lines.push_back("grains      " + grains_text(grains, units.spacing()));
+  if (const std::string bed = bed_text(simulation, grains); !bed.empty()) lines.push_back(bed);
+  if (grains.grains > 0) lines.push_back("solids      " + solids_text(simulation.settings().solids));
+  lines.push_back(fmt::format("coupling    {} DEM steps of {:.4g} s a fluid step{}", simulation.substeps(),
+                              units.time_step() / simulation.substeps(),
+                              simulation.settings().average_force ? ", mean force of two steps" : ""));
+  for (const EffectChoice& effect : effects)
+    lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
+  for (const std::string& warning : units.warnings()) lines.push_back("note: " + warning);
+  return lines;
+}
+
+std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall) {
+  const MPI_Comm communicator = simulation.fluid().decomposition().communicator();
+  double bare = 1e300;
+  for (int n = 0; n < 3; ++n) {
+    MPI_Barrier(communicator);
+    const double start = MPI_Wtime();
+    simulation.fluid().bare_update();
+    double mine = MPI_Wtime() - start;
+    MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, communicator);
+    bare = std::min(bare, mine);
+  }
+  const CoupledTimes& times = simulation.times();
+  double parts[] = {times.fluid, times.mapping, times.exchange, times.grains, times.output};
+  MPI_Allreduce(MPI_IN_PLACE, parts, 5, MPI_DOUBLE, MPI_MAX, communicator);
+  const char* names[] = {"fluid", "solid mapping", "forces on grains", "grains (LIGGGHTS)",
+                         "monitors and output"};
+  const double count = static_cast<double>(std::max(1L, steps));
+  std::string text = fmt::format("{:<22}{:>10}{:>12}{:>8}\n", "time in", "s", "ms a step", "share");
+  double rest = wall;
+  const auto row = [&](const char* name, double seconds) {
+    text += fmt::format("{:<22}{:>10.2f}{:>12.3f}{:>7.1f}%\n", name, seconds, 1e3 * seconds / count,
+                        100 * seconds / wall);
+  };
+  for (int i = 0; i < 5; ++i) {
+    row(names[i], parts[i]);
+    rest -= parts[i];
+  }
+  row("rest", std::max(0., rest));
+  const lbm::Index3& cells = simulation.fluid().decomposition().cells();
+  const double all_cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, cells}.volume());
+  text += fmt::format("{} steps in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
+                      steps, duration_text(wall), all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
+                      100 * bare * count / std::max(parts[0], 1e-9));
+  if (grain_steps > 0)
+    text +=
+        fmt::format("; grains {:.2f} M grain steps a second", grain_steps / std::max(parts[3], 1e-9) * 1e-6);
+  return text;
+}
+
+}  // namespace suffuse::coupling

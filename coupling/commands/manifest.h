@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "../liggghts/liggghts_port.h"
+#include "lbm_settings.h"
+#include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/effects.h"
+
+namespace suffuse::coupling {
+
+/// What a run is going to do, before it starts: lattice, solids, grains, effects with their reasons, and what
+/// may cost accuracy. One line each.
+std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
+                                  const std::vector<EffectChoice>& effects);
+
+/// Where the time went, as a table: each part in seconds, milliseconds a step and share, the slowest rank's.
+/// `steps` of the fluid, `grain_steps` steps of single grains, `wall` seconds in all. Collective.
+std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall);
+
+}  // namespace suffuse::coupling

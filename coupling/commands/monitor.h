@@ -1,0 +1,74 @@
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../liggghts/liggghts_port.h"
+#include "monitor_request.h"
+#include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/plane_sums.h"
+
+namespace suffuse::coupling {
+
+/// What quantities are made from; each part is computed once a sample, and only if some quantity wants it.
+class Sample {
+ public:
+  Sample(LAMMPS_NS::LAMMPS* liggghts, LiggghtsPort& grains_port, CoupledSimulation& flow, int across)
+      : lmp(liggghts), port(grains_port), simulation(flow), axis(across) {}
+
+  const PlaneSums& planes();
+  const LiggghtsPort::Summary& grains();
+  /// |g| of `lbm force gravity` times the density, or with 9.81 m/s^2 where there is none, N/m^3.
+  double specific_weight() const;
+
+  LAMMPS_NS::LAMMPS* lmp;
+  LiggghtsPort& port;
+  CoupledSimulation& simulation;
+  int axis;
+
+ private:
+  std::optional<PlaneSums> planes_;
+  std::optional<LiggghtsPort::Summary> grains_;
+};
+
+/// Some columns of a monitor's file.
+struct Quantity {
+  std::vector<std::string> columns;  ///< names with units
+  std::function<void(Sample&, std::vector<double>&)> append;
+};
+
+/// The quantity that a line of the script asks for. A UserError if it names what does not exist.
+/// `box_low` is LIGGGHTS's low corner along the monitor's axis. Collective.
+Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& monitor, Sample& now);
+
+/// `lbm monitor`: a CSV file with a header of names and units, one row a sample, flushed as written.
+class Monitor {
+ public:
+  /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay.
+  /// Collective.
+  Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+          CoupledSimulation& simulation, std::optional<double> continue_after);
+
+  /// Fluid steps between samples.
+  long every() const { return every_; }
+  const MonitorRequest& request() const { return request_; }
+
+  /// Collective.
+  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+
+ private:
+  void open(std::optional<double> continue_after, MPI_Comm communicator);
+
+  MonitorRequest request_;
+  std::vector<Quantity> quantities_;
+  long every_ = 1;
+  bool speaks_;
+  long last_step_ = -1;
+  std::ofstream file_;
+};
+
+}  // namespace suffuse::coupling

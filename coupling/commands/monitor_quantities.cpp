@@ -1,0 +1,300 @@
+// What a monitor can be asked for: docs/reference/lbm.md lists the words and the columns that they give.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compute.h"
+#include "fix.h"
+#include "group.h"
+#include "input.h"
+#include "lammps.h"
+#include "modify.h"
+#include "monitor.h"
+#include "suffuse/common/error.h"
+#include "variable.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+using LAMMPS_NS::LAMMPS;
+
+std::string axis_name(int axis) {
+  return std::string(1, static_cast<char>('x' + axis));
+}
+
+std::vector<std::string> vector_columns(const std::string& name, const std::string& unit) {
+  std::vector<std::string> columns;
+  for (int a = 0; a < 3; ++a) columns.push_back(fmt::format("{}_{}_{}", name, axis_name(a), unit));
+  return columns;
+}
+
+void append_vector(std::vector<double>& row, const Vec3& vector) {
+  row.insert(row.end(), vector.data(), vector.data() + 3);
+}
+
+/// Heights of the layers' ends above the fluid's low corner, from the top layer down (thesis section 6.3).
+struct LayerEnds {
+  double low, high;
+};
+std::vector<LayerEnds> layer_ends(const LayerRequest& layers, double fluid_low) {
+  std::vector<LayerEnds> ends;
+  const double thickness = (layers.high - layers.low) / layers.count;
+  for (int k = 0; k < layers.count; ++k) {
+    const double high = layers.high - k * thickness - fluid_low;
+    ends.push_back({high - thickness, high});
+  }
+  return ends;
+}
+
+std::vector<std::string> layer_columns(const std::string& name, int count, const std::string& unit) {
+  std::vector<std::string> columns;
+  for (int k = 1; k <= count; ++k) columns.push_back(fmt::format("{}_{}{}", name, k, unit));
+  return columns;
+}
+
+double gradient_between(Sample& sample, double low, double high) {
+  const Vec3& driven = sample.simulation.settings().pressure_gradient;
+  return hydraulic_gradient(sample.planes(), low, high, driven[sample.axis], sample.specific_weight());
+}
+
+Quantity layer_quantity(const std::string& word, const MonitorRequest& monitor, double fluid_low) {
+  const std::vector<LayerEnds> ends = layer_ends(monitor.layers, fluid_low);
+  const auto plane = [](const PlaneSums& planes, double height) {
+    return static_cast<std::size_t>(
+        std::clamp(std::round(height / planes.spacing), 0., static_cast<double>(planes.planes())));
+  };
+  if (word == "layer_gradient")
+    return {layer_columns("hydraulic_gradient_layer", monitor.layers.count, ""),
+            [ends](Sample& sample, std::vector<double>& row) {
+              for (const LayerEnds& e : ends) row.push_back(gradient_between(sample, e.low, e.high));
+            }};
+  if (word == "layer_porosity")
+    return {layer_columns("porosity_layer", monitor.layers.count, ""),
+            [ends, plane](Sample& sample, std::vector<double>& row) {
+              const PlaneSums& planes = sample.planes();
+              for (const LayerEnds& e : ends)
+                row.push_back(planes.porosity(plane(planes, e.low), plane(planes, e.high)));
+            }};
+  return {layer_columns("pressure_layer", monitor.layers.count, "_pa"),
+          [ends](Sample& sample, std::vector<double>& row) {
+            for (const LayerEnds& e : ends)
+              row.push_back(sample.planes().pressure_at(0.5 * (e.low + e.high)));
+          }};
+}
+
+/// Height below which this share of the solids' volume lies, m above the first plane's low side.
+double solid_height(const PlaneSums& planes, double share) {
+  double all = 0, sum = 0;
+  for (const double open : planes.open_share) all += 1 - open;
+  if (all <= 0) return 0;
+  for (std::size_t i = 0; i < planes.planes(); ++i) {
+    const double here = 1 - planes.open_share[i];
+    if (sum + here >= share * all)
+      return planes.spacing * (static_cast<double>(i) + (here > 0 ? (share * all - sum) / here : 0));
+    sum += here;
+  }
+  return planes.spacing * static_cast<double>(planes.planes());
+}
+
+double centre_of_solids(const PlaneSums& planes) {
+  double all = 0, moment = 0;
+  for (std::size_t i = 0; i < planes.planes(); ++i) {
+    const double here = 1 - planes.open_share[i];
+    all += here;
+    moment += here * planes.spacing * (static_cast<double>(i) + 0.5);
+  }
+  return all > 0 ? moment / all : 0;
+}
+
+/// Beyond this height there are only the odd grains of the surface.
+constexpr double kBedShare = 0.99;
+
+Quantity bed_quantity(int axis) {
+  return {{"bed_height_m", "bed_porosity", "centre_of_grains_" + axis_name(axis) + "_m"},
+          [](Sample& sample, std::vector<double>& row) {
+            const PlaneSums& planes = sample.planes();
+            const double height = solid_height(planes, kBedShare);
+            double solid = 0;
+            for (const double open : planes.open_share) solid += planes.spacing * (1 - open);
+            row.push_back(height);
+            row.push_back(height > 0 ? 1 - kBedShare * solid / height : 1);
+            row.push_back(centre_of_solids(planes));
+          }};
+}
+
+/// Mass of the fluid, what all populations hold beyond rest (conserved but for the faces), and its change
+/// less what came in through the faces across the axis, by the trapezoidal rule over the samples.
+Quantity mass_quantity() {
+  struct State {
+    bool started = false;
+    double first = 0, last_time = 0, last_inflow = 0, came_in = 0;
+  };
+  auto state = std::make_shared<State>();
+  return {{"fluid_mass_kg", "mass_change_kg", "mass_balance_kg"},
+          [state](Sample& sample, std::vector<double>& row) {
+            const PlaneSums& planes = sample.planes();
+            const lbm::Units& units = sample.simulation.units();
+            const lbm::Index3& cells = sample.simulation.fluid().decomposition().cells();
+            const double area = std::pow(units.spacing(), 2) * cells[0] * cells[1] * cells[2] /
+                                static_cast<double>(planes.planes());
+            const double inflow =
+                units.density() * area * (planes.flux.front()[sample.axis] - planes.flux.back()[sample.axis]);
+            const double time = sample.simulation.time_si();
+            if (!state->started) *state = {true, planes.stored_mass, time, inflow, 0};
+            state->came_in += 0.5 * (time - state->last_time) * (inflow + state->last_inflow);
+            state->last_time = time;
+            state->last_inflow = inflow;
+            const double change = planes.stored_mass - state->first;
+            row.insert(row.end(), {planes.fluid_mass, change, change - state->came_in});
+          }};
+}
+
+Quantity discharge_quantity(int axis) {
+  const std::string name = "discharge_" + axis_name(axis);
+  return {{name + "lo_m3_per_s", name + "hi_m3_per_s"}, [](Sample& sample, std::vector<double>& row) {
+            const PlaneSums& planes = sample.planes();
+            const lbm::Index3& cells = sample.simulation.fluid().decomposition().cells();
+            const double area = std::pow(planes.spacing, 2) * cells[0] * cells[1] * cells[2] /
+                                static_cast<double>(planes.planes());
+            row.push_back(area * planes.flux.front()[sample.axis]);
+            row.push_back(area * planes.flux.back()[sample.axis]);
+          }};
+}
+
+Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
+  std::vector<std::string> columns;
+  const auto& bounds = request.numbers;
+  for (std::size_t k = 0; k <= bounds.size(); ++k) {
+    std::string name = "grains_left";
+    if (k > 0) name += fmt::format("_from_{:g}_m", bounds[k - 1]);
+    if (k < bounds.size()) name += fmt::format("_below_{:g}_m", bounds[k]);
+    columns.push_back(name);
+  }
+  const std::vector<double> first = now.port.grains_by_size(bounds);
+  return {columns, [bounds, first](Sample& sample, std::vector<double>& row) {
+            const std::vector<double> left = sample.port.grains_by_size(bounds);
+            for (std::size_t k = 0; k < first.size(); ++k) row.push_back(first[k] - left[k]);
+          }};
+}
+
+Quantity mean_force_quantity(const QuantityRequest& request, LAMMPS* lmp) {
+  std::string name = request.group;
+  const int group = lmp->group->find(name.data());
+  if (group < 0)
+    throw_user_error({"lbm monitor", "mean_force", request.group, "name a group that exists",
+                      "write `group " + request.group + " ...` before"});
+  const int bit = lmp->group->bitmask[group];
+  return {vector_columns("mean_force_" + request.group, "n"),
+          [bit](Sample& sample, std::vector<double>& row) {
+            sample.simulation.refresh_loads();
+            append_vector(row, sample.port.mean_load(bit));
+          }};
+}
+
+/// A reference with [*] stands for one with each row of the compute's or fix's array, or each value of its
+/// vector.
+std::vector<std::string> expanded(const std::string& reference, LAMMPS* lmp) {
+  const std::size_t bracket = reference.find('[');
+  std::string id = reference.substr(2, bracket == std::string::npos ? bracket : bracket - 2);
+  int rows = 0, values = 0;
+  bool exists = false;
+  if (reference[0] == 'c') {
+    const int n = lmp->modify->find_compute(id.data());
+    exists = n >= 0;
+    if (exists) {
+      rows = lmp->modify->compute[n]->size_array_rows;
+      values = lmp->modify->compute[n]->size_vector;
+    }
+  } else if (reference[0] == 'f') {
+    const int n = lmp->modify->find_fix(id.data());
+    exists = n >= 0;
+    if (exists) {
+      rows = lmp->modify->fix[n]->size_array_rows;
+      values = lmp->modify->fix[n]->size_vector;
+    }
+  } else {
+    const int n = lmp->input->variable->find(id.data());
+    exists = n >= 0 && lmp->input->variable->equalstyle(n) != 0;
+  }
+  if (!exists)
+    throw_user_error({"lbm monitor", "reference", reference,
+                      "name a compute, fix or equal-style variable that exists",
+                      "define it before the first lbm run"});
+  const std::size_t star = reference.find("[*]");
+  if (star == std::string::npos) return {reference};
+  const bool array = reference.find('[', star + 1) != std::string::npos;
+  std::vector<std::string> all;
+  for (int k = 1; k <= (array ? rows : values); ++k)
+    all.push_back(reference.substr(0, star) + fmt::format("[{}]", k) + reference.substr(star + 3));
+  if (all.empty())
+    throw_user_error({"lbm monitor", "reference", reference, "have rows or values for [*]",
+                      "c_ID[*] takes a vector's values, c_ID[*][k] column k of an array"});
+  return all;
+}
+
+Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
+  const std::vector<std::string> references = expanded(request.word, lmp);
+  std::vector<std::string> columns;
+  for (std::size_t k = 0; k < references.size(); ++k) {
+    if (request.name.empty())
+      columns.push_back((request.relative ? "relative_" : "") + references[k]);
+    else
+      columns.push_back(references.size() == 1 ? request.name : fmt::format("{}_{}", request.name, k + 1));
+  }
+  auto first = std::make_shared<std::vector<double>>();
+  return {columns,
+          [references, first, relative = request.relative](Sample& sample, std::vector<double>& row) {
+            std::vector<double> values;
+            for (std::string formula : references)
+              values.push_back(sample.lmp->input->variable->compute_equal(formula.data()));
+            if (relative && first->empty()) *first = values;
+            for (std::size_t k = 0; k < values.size(); ++k)
+              row.push_back(relative ? values[k] / (*first)[k] : values[k]);
+          }};
+}
+
+}  // namespace
+
+Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& monitor, Sample& now) {
+  const std::string& word = request.word;
+  const int axis = monitor.axis;
+  if (word == "superficial_velocity")
+    return {vector_columns(word, "m_per_s"), [](Sample& sample, std::vector<double>& row) {
+              append_vector(row, sample.planes().superficial_velocity());
+            }};
+  if (word == "hydraulic_gradient")
+    return {{word + "_" + axis_name(axis)}, [](Sample& sample, std::vector<double>& row) {
+              row.push_back(gradient_between(
+                  sample, 0, sample.planes().spacing * static_cast<double>(sample.planes().planes())));
+            }};
+  if (word.starts_with("layer_")) return layer_quantity(word, monitor, now.simulation.origin()[axis]);
+  if (word == "solid_force")
+    return {vector_columns(word, "n"),
+            [](Sample& sample, std::vector<double>& row) { append_vector(row, sample.grains().load); }};
+  if (word == "mean_force") return mean_force_quantity(request, now.lmp);
+  if (word == "mass") return mass_quantity();
+  if (word == "discharge") return discharge_quantity(axis);
+  if (word == "kinetic_energy")
+    return {{"fluid_kinetic_energy_j", "grains_kinetic_energy_j"},
+            [](Sample& sample, std::vector<double>& row) {
+              row.push_back(sample.planes().fluid_kinetic_energy);
+              row.push_back(sample.grains().kinetic_energy);
+            }};
+  if (word == "bed") return bed_quantity(axis);
+  if (word == "grains")
+    return {{"grains"}, [](Sample& sample, std::vector<double>& row) {
+              row.push_back(static_cast<double>(sample.grains().grains));
+            }};
+  if (word == "grains_left") return grains_left_quantity(request, now);
+  if (word == "extremes")
+    return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
+            [](Sample& sample, std::vector<double>& row) {
+              const lbm::FluidExtremes e = sample.simulation.fluid().extremes();
+              row.insert(row.end(), {e.largest_speed * std::sqrt(3.), e.smallest_density, e.largest_density});
+            }};
+  return reference_quantity(request, now.lmp);
+}
+
+}  // namespace suffuse::coupling

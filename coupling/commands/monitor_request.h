@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "styles/style_support.h"
+
+namespace suffuse::coupling {
+
+/// One quantity of a `lbm monitor` line, as written.
+struct QuantityRequest {
+  std::string word;             ///< one of ours, or a reference c_ID[k], f_ID[k], v_NAME
+  std::vector<double> numbers;  ///< diameters of `grains_left`
+  std::string group;            ///< of `mean_force`
+  bool relative = false;        ///< divided by the first sample's value
+  std::string name;             ///< `as NAME`; empty: made from the word
+};
+
+/// Equal layers across an axis, low corner of the box included in LIGGGHTS's coordinates.
+struct LayerRequest {
+  double low = 0, high = 0;  ///< m
+  int count = 0;             ///< 0: none given
+};
+
+/// `lbm monitor ID every T file FILE [axis x|y|z] [layers LO HI N] QUANTITY ...`
+struct MonitorRequest {
+  std::string id, file;
+  double every = 0;  ///< s
+  int axis = 2;
+  LayerRequest layers;
+  std::vector<QuantityRequest> quantities;
+};
+
+/// Reads the words after the monitor's ID. A UserError for unknown words and incomplete lines.
+MonitorRequest read_monitor_request(ArgumentReader& reader, const std::string& id);
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,103 @@
+#include "run_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "lammps.h"
+#include "suffuse/lbm/checkpoint.h"
+#include "write_restart.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+long steps_between(double seconds, const lbm::Units& units) {
+  return std::max(1L, std::lround(units.time_to_lattice(seconds)));
+}
+
+std::string grains_file(const std::string& file) {
+  const std::filesystem::path path(file);
+  return (path.parent_path() / (path.stem().string() + "_grains" + path.extension().string())).string();
+}
+
+}  // namespace
+
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
+  lbm::save_state(simulation.fluid(), file);
+  std::string grains = file + ".grains";
+  LAMMPS_NS::WriteRestart(lmp).write(grains.data());
+}
+
+void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                        CoupledSimulation& simulation, std::optional<double> continue_after) {
+  std::erase_if(monitors_, [&](const auto& open) {
+    return std::none_of(settings.monitors.begin(), settings.monitors.end(),
+                        [&](const MonitorRequest& m) { return m.id == open->request().id; });
+  });
+  for (const MonitorRequest& request : settings.monitors)
+    if (std::none_of(monitors_.begin(), monitors_.end(),
+                     [&](const auto& open) { return open->request().id == request.id; }))
+      monitors_.push_back(std::make_unique<Monitor>(request, lmp, port, simulation, continue_after));
+
+  std::erase_if(fields_, [&](const auto& open) {
+    return std::none_of(settings.outputs.begin(), settings.outputs.end(),
+                        [&](const OutputRequest& o) { return o.id == open->request.id; });
+  });
+  for (const OutputRequest& request : settings.outputs) {
+    if (std::any_of(fields_.begin(), fields_.end(),
+                    [&](const auto& open) { return open->request.id == request.id; }))
+      continue;
+    lbm::FieldOutputSettings fields;
+    fields.path = request.file;
+    fields.fields = request.fields;
+    fields.origin = simulation.origin();
+    fields.append = continue_after.has_value();
+    fields.solid_fraction = [&simulation](const lbm::Index3& cell) {
+      return simulation.fluid().solid_fraction(cell);
+    };
+    fields_.push_back(std::make_unique<Fields>(Fields{request,
+                                                      steps_between(request.every, simulation.units()),
+                                                      -1,
+                                                      lbm::FieldOutput(fields, simulation.units()),
+                                                      {}}));
+    if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
+  }
+  checkpoint_ = settings.checkpoint;
+  checkpoint_every_ = checkpoint_ ? steps_between(checkpoint_->every, simulation.units()) : 0;
+}
+
+bool RunOutput::wants_values(long step) const {
+  return std::any_of(monitors_.begin(), monitors_.end(),
+                     [&](const auto& monitor) { return step % monitor->every() == 0; });
+}
+
+bool RunOutput::due(long step) const {
+  return wants_values(step) || (checkpoint_every_ > 0 && step % checkpoint_every_ == 0) ||
+         std::any_of(fields_.begin(), fields_.end(),
+                     [&](const auto& fields) { return step % fields->every == 0; });
+}
+
+void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
+  const long step = simulation.fluid().steps();
+  simulation.map();  // cells as the grains are now
+  for (const auto& monitor : monitors_)
+    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation);
+  for (const auto& fields : fields_) {
+    if (step % fields->every != 0 || fields->last_step == step) continue;
+    fields->last_step = step;
+    fields->fluid.write(simulation.fluid());
+    if (!fields->grains) continue;
+    simulation.refresh_loads();
+    const GrainArrays grains = port.grains();
+    fields->grains->write(step, simulation.time_si(), grains, port.memory(),
+                          simulation.fluid().decomposition().communicator());
+  }
+  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0)
+    write_checkpoint(lmp, simulation, checkpoint_->file);
+  started_ = true;
+}
+
+}  // namespace suffuse::coupling

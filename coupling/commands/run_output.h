@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../liggghts/liggghts_port.h"
+#include "lbm_settings.h"
+#include "monitor.h"
+#include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/grain_output.h"
+
+namespace suffuse::coupling {
+
+/// Everything that a run writes at intervals: monitors, fields and grains, restart files. Stays open from one
+/// `lbm run` to the next.
+class RunOutput {
+ public:
+  /// Opens what the script has asked for since the last call and drops what it has taken back. With
+  /// `continue_after` (s) new files go on with what an earlier run left in them up to then. Collective.
+  void prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+               CoupledSimulation& simulation, std::optional<double> continue_after);
+
+  /// Is anything due once the fluid has made so many steps?
+  bool due(long step) const;
+  /// Are values of LIGGGHTS's computes wanted then?
+  bool wants_values(long step) const;
+
+  /// Writes what is due now; everything at the first call. Collective.
+  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+
+ private:
+  struct Fields {
+    OutputRequest request;
+    long every = 1, last_step = -1;
+    lbm::FieldOutput fluid;
+    std::optional<GrainOutput> grains;
+  };
+
+  std::vector<std::unique_ptr<Monitor>> monitors_;
+  std::vector<std::unique_ptr<Fields>> fields_;
+  std::optional<CheckpointRequest> checkpoint_;
+  long checkpoint_every_ = 0;
+  bool started_ = false;
+};
+
+/// Saves the fluid to `file` and LIGGGHTS's own restart file beside it, `file`.grains. Collective.
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file);
+
+}  // namespace suffuse::coupling

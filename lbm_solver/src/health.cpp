@@ -1,0 +1,48 @@
+#include "suffuse/lbm/health.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::lbm {
+
+namespace {
+
+double mach_of(const FluidExtremes& extremes) {
+  return extremes.largest_speed * std::sqrt(3.);
+}
+
+/// Close to 0.5 the viscosity is too small for the spacing; else the time step is too long for the speed.
+std::string remedy(const Units& units) {
+  if (units.relaxation_time() < 0.52)
+    return fmt::format(
+        "relaxation_time is {:.4g}, close to its lower limit: use a smaller spacing, or `lbm collision "
+        "central_moments`, or change boundary values more slowly",
+        units.relaxation_time());
+  return fmt::format(
+      "use a timestep below {:.3g} s (relaxation_time below {:.4g}), or change boundary values more slowly",
+      units.time_step(), units.relaxation_time());
+}
+
+}  // namespace
+
+void require_stable(const FluidExtremes& extremes, const Units& units, double time_si, double largest_mach,
+                    const std::string& who) {
+  const std::string what = fmt::format("flow at {:.5g} s", time_si);
+  if (!extremes.finite) throw_user_error({who, what, "not a number", "stay finite", remedy(units)});
+  const double mach = mach_of(extremes);
+  if (mach > largest_mach)
+    throw_user_error(
+        {who, what, fmt::format("Mach number {:.3g}", mach),
+         fmt::format("stay below {:g}: a lattice fluid is nearly incompressible only there", largest_mach),
+         remedy(units)});
+}
+
+std::string health_text(const FluidExtremes& extremes) {
+  return fmt::format("Mach {:.3f}  density {:+.2f} .. {:+.2f} %", mach_of(extremes),
+                     100 * (extremes.smallest_density - 1), 100 * (extremes.largest_density - 1));
+}
+
+}  // namespace suffuse::lbm

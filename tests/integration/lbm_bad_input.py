@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""lbm_bad_input.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
+
+What a person may write wrongly for the water: each gives one line that names the culprit and the remedy, and exit
+code 1 on every rank.
+"""
+import sys
+import pathlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scenes import expect, program_from_command_line, scratch  # noqa: E402
+from wet_scenes import WATER, wet_box  # noqa: E402
+
+FEW = wet_box(grains=4)
+WET = FEW + WATER
+RUN = "lbm run 1e-3\n"
+
+# (script, words that the message must hold)
+CASES = [
+    (FEW + "lbm\n", ["lbm", "word = nothing", "be one of"]),
+    (FEW + "lbm flow 1\n", ["word = flow", "be one of"]),
+    (FEW + RUN, ["lbm run", "lattice = none", "lbm lattice"]),
+    (FEW + "lbm plan 1\n", ["lbm plan", "lattice = none"]),
+    (FEW + "lbm lattice spacing 1.25e-4 relaxation_time 0.49\n", ["relaxation_time = 0.49", "raise viscosity"]),
+    (FEW + "lbm lattice spacing -1 relaxation_time 0.6\n", ["spacing = -1", "> 0"]),
+    (FEW + "lbm lattice relaxation_time 0.6\n", ["spacing"]),
+    (FEW + "lbm lattice spacing 1.25e-4 relaxation_time 0.6 precision half\n", ["precision = half", "double, float"]),
+    (FEW + "lbm fluid density 0\n", ["density = 0", "> 0"]),
+    (FEW + "lbm fluid density 1000 temperature 20\n", ["keyword = temperature", "density, viscosity"]),
+    (FEW + WATER.replace("1.25e-4", "1.3e-4").replace("0.000125", "1.3e-4") + RUN, ["spacing", "whole number of cells"]),
+    (WET + "lbm boundary xlo noslip\n" + RUN, ["xlo", "periodic"]),
+    (WET + "lbm boundary zlo periodic zhi periodic\n" + RUN, ["zlo", "LIGGGHTS"]),
+    (WET + "lbm boundary zlo pressure\n", ["pressure", "be given"]),
+    (WET + "lbm boundary zlo pressure v_nothing\n", ["v_nothing", "no such variable"]),
+    (WET + "lbm boundary zlo leaky\n", ["zlo = leaky", "noslip"]),
+    (WET + "lbm boundary zlo noslip zlo freeslip\n", ["zlo = given twice"]),
+    (WET + "lbm boundary top noslip\n", ["face = top", "zhi"]),
+    (WET + "lbm force\n", ["gravity or pressure_gradient"]),
+    (WET + "lbm force gravity 0 0\n", ["gravity z", "be given"]),
+    (WET + "lbm collision les\n", ["operator = les", "trt"]),
+    (WET + "lbm collision trt magic 0\n", ["magic = 0"]),
+    (WET + "lbm solid operator sc4\n", ["operator = sc4", "sc3"]),
+    (WET + "lbm solid weighting fraction coefficient 2\n", ["coefficient = given", "viscosity_independent"]),
+    (WET + "lbm solid fraction subcells 100\n", ["subcells = 100", "at most 32"]),
+    (WET + "lbm effect wind on\n", ["keyword = wind", "turbulence"]),
+    (WET + "lbm effect lubrication maybe\n", ["lubrication = maybe", "on, off, auto"]),
+    (WET + "lbm couple substeps 1\n" + RUN, ["substeps = 1", "substeps auto"]),
+    (WET + "lbm couple substeps 0\n", ["substeps = 0", "whole number"]),
+    (WET + "lbm couple virtual_mass -1\n", ["virtual_mass = -1", ">= 0"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv\n", ["monitor m", "quantities"]),
+    (WET + "lbm monitor m every 0 file m.csv bed\n", ["every = 0", "> 0"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv vorticity\n", ["vorticity", "superficial_velocity"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv layer_gradient\n", ["layer_gradient", "layers LO HI N"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv bed\nlbm monitor m every 1e-3 file n.csv bed\n", ["monitor m = given twice"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv c_nothing[1]\n" + RUN, ["c_nothing[1]", "exists"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv mean_force nobody\n" + RUN, ["nobody", "group"]),
+    (WET + "lbm monitor m every 1e-3 file nowhere/m.csv bed\n" + RUN, ["nowhere/m.csv", "writable"]),
+    (WET + "lbm output o every 1e-3 file o.h5 colour\n", ["colour", "velocity"]),
+    (WET + "lbm output o every 1e-3\n", ["output o", "every and file"]),
+    (WET + "lbm run\n", ["time", "be given"]),
+    (WET + "lbm run -1\n", ["time = -1", "> 0"]),
+    (WET + "lbm run 1e-3 until dry\n", ["keyword = dry", "steady"]),
+    (WET + RUN + "lbm lattice spacing 1e-4 relaxation_time 0.6\n", ["lbm lattice", "before the first lbm run"]),
+    (WET + "lbm restart write w.h5\n", ["fluid = none", "after `lbm run`"]),
+    (WET + "lbm restart read nowhere.h5\n" + RUN, ["nowhere.h5"]),
+    (WET + "fix bu all buoyancy level 5e-3 dim z density 1000\n" + RUN, ["bu", "displaced fluid"]),
+    (WET + "fix d all deform 1 z scale 0.9 remap x\n" + RUN, ["box", "keep its size"]),
+    (wet_box(grains=4, boundary="p p m").replace("run 1\n", "run 1\n") + WATER + RUN, ["boundary = shrink-wrapped"]),
+    (WET + "create_atoms 1 single 1.0e-3 1.0e-3 2.5e-3\ncreate_atoms 1 single 1.01e-3 1.0e-3 2.5e-3\n"
+     "set type 1 diameter 1e-3 density 2650\n" + RUN, ["grains = overlapping", "settle or separate"]),
+    (WET + "fix h all hydrodynamic/force\nfix h2 all hydrodynamic/force\n" + RUN, ["hydrodynamic/force"]),
+    (WET + "lbm boundary zlo velocity 0 0 v_fast zhi pressure 0\nvariable fast equal 100\n", ["v_fast", "no such variable"]),
+    (WET + "variable fast equal 100*step\nlbm boundary zlo velocity 0 0 v_fast zhi pressure 0\nlbm run 1\n",
+     ["velocity", "speed of sound"]),
+]
+
+
+def main():
+    program = program_from_command_line(__doc__)
+    failures = []
+    with scratch() as folder:
+        for script, words in CASES:
+            last = script.strip().splitlines()[-1] if not script.endswith(RUN) else script.strip().splitlines()[-2]
+            code, screen = program.run(script, folder, timeout=60)
+            lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
+            if code != 1:
+                failures.append(f"`{last}` ended with code {code}\n{screen[-500:]}")
+            elif len(lines) != 1:
+                failures.append(f"`{last}` gave {len(lines)} error lines\n{screen[-500:]}")
+            else:
+                failures += [f"`{last}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+    expect(not failures, "\n".join(failures))
+    print(f"{program.ranks} ranks: {len(CASES)} mistakes, each named in one line")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""lbm_run.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
+
+Grains and water in runs of `suffuse`: the same on one rank and on N; LIGGGHTS's own output as in `run`; what is
+written at intervals; runs that go on from a restart; grains that come and go.
+"""
+import pathlib
+import re
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scenes import Program, columns, expect, program_from_command_line, scratch  # noqa: E402
+from wet_scenes import WATER, wet_box  # noqa: E402
+
+MONITOR = """
+variable inlet equal 2*step*dt/1e-2
+lbm boundary zlo pressure v_inlet zhi pressure 0
+variable highest equal bound(all,zmax)
+lbm monitor flow every 1e-3 file flow.csv layers 0 4e-3 4 superficial_velocity hydraulic_gradient layer_gradient &
+    layer_porosity layer_pressure solid_force mean_force all mass discharge kinetic_energy bed grains grains_left 0.8e-3 &
+    extremes v_highest as highest_m c_Z[1] as Z
+lbm output fields every 4e-3 file bed.h5 velocity pressure solid_fraction grains
+"""
+COMPUTE = "compute Z all coordination\n"
+
+
+def positions(path):
+    """Positions and loads by id of the last snapshot of a dump."""
+    lines = path.read_text().split("ITEM: ATOMS")[-1].splitlines()[1:]
+    return {int(line.split()[0]): [float(word) for word in line.split()[1:]] for line in lines}
+
+
+DUMP = """
+dump grains all custom {every} grains.dump id x y z vx vy vz f_hydrodynamic_force[1] f_hydrodynamic_force[3]
+dump_modify grains format "%d %.16g %.16g %.16g %.16g %.16g %.16g %.16g %.16g" sort id
+"""
+
+
+def check_ranks(program):
+    """12 ms of settling and inflow on N ranks and on one. Forces of contacts are summed in another order, which collisions
+    amplify: positions agree to 1e-9 of the box until then, not to the last digit."""
+    states = []
+    with scratch() as folder:
+        path = pathlib.Path(folder)
+        # LIGGGHTS places grains differently on other rank counts: all start from one file.
+        Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
+        text = wet_box(restart="start") + WATER + COMPUTE + MONITOR + DUMP.format(every=4000) + \
+            "thermo 2000\nlbm run 12e-3\n"
+        for ranks in sorted({1, program.ranks}):
+            screen = Program(program.suffuse, program.mpirun, ranks).must_run(text, folder, timeout=300)
+            states.append(positions(path / "grains.dump"))
+            check_output(path, screen, columns(path / "flow.csv"))
+    one, many = states[0], states[-1]
+    expect(len(one) == 40 and one.keys() == many.keys(), f"{len(one)} and {len(many)} grains")
+    largest = max(abs(a - b) for grain in one for a, b in zip(one[grain][:3], many[grain][:3]))
+    expect(largest < 4e-12, f"positions differ by {largest} m between 1 and {program.ranks} ranks")
+    return largest
+
+
+def check_output(folder, screen, series):
+    steps = [int(line.split()[0]) for line in screen.splitlines() if re.fullmatch(r"\s*\d+\s+\d+\s+[-+.e\d ]+", line)]
+    expect(sorted(set(steps)) == sorted(steps) or steps.count(steps[0]) <= 2, f"thermo lines {steps}")
+    expect(screen.count("Setting up run") <= 3, "LIGGGHTS is set up anew within a run")
+    for word in ("lbm run: lattice", "buoyancy", "on  the fluid has weight", "solid mapping", "grains (LIGGGHTS)"):
+        expect(word in screen, f"no '{word}' on the screen:\n{screen[-2000:]}")
+    times = series["time_s"]
+    expect(len(times) == 12 and all(abs(time - k * 1e-3) < 0.02e-3 * k + 1e-12 for k, time in enumerate(times)), f"samples at {times}")
+    for layer in range(1, 5):
+        expect(f"hydraulic_gradient_layer_{layer}" in series and f"pressure_layer_{layer}_pa" in series, "layers missing")
+    expect(all(value == 40 for value in series["grains"]), f"grains {series['grains']}")
+    expect(all(value == 0 for value in series["grains_left_below_0.0008_m"]), "grains counted as left")
+    # The solids in the cells are the grains: 12 grains of 1 mm and 28 of 0.6 mm or the like, by the dump's masses.
+    expect(series["fluid_mass_kg"][0] < 0.08e-3 and series["bed_porosity"][-1] < 1, "no solids in the fluid's cells")
+    names = sorted(path.name for path in folder.iterdir())
+    for name in ("bed.h5", "bed.xdmf", "bed_grains.h5", "bed_grains.xdmf", "grains.dump"):
+        expect(name in names, f"{name} missing among {names}")
+
+
+def check_restart(program):
+    """A run in two parts, with a pause between them, and one that ends at the pause and goes on in a new process: the
+    same to the last digit."""
+    grid = f"{program.ranks} 1 1"
+    water = WATER + "lbm boundary zlo pressure 1 zhi pressure 0\n"
+    last = DUMP.format(every=1000000) + "lbm run 4e-3\n"
+    with scratch() as folder:
+        path = pathlib.Path(folder)
+        program.must_run(wet_box(processors=grid) + water + "lbm run 4e-3\nlbm restart write half.h5\n" + last, folder)
+        whole = positions(path / "grains.dump")
+        program.must_run(wet_box(processors=grid, restart="half.h5.grains") + water + "lbm restart read half.h5\n" + last,
+                         folder)
+        second = positions(path / "grains.dump")
+    expect(whole.keys() == second.keys(), "grains differ after a restart")
+    different = [grain for grain in whole if whole[grain] != second[grain]]
+    expect(not different, f"{len(different)} grains differ, first {whole[different[0]]} {second[different[0]]}" if different else "")
+
+
+def check_steady_and_grains(program):
+    """Until steady; water without grains; grains inserted and deleted between runs leave no solids behind."""
+    empty = wet_box(grains=0) + WATER + "lbm boundary zlo pressure 0.1 zhi pressure 0\n" + \
+        "lbm monitor m every 2e-3 file m.csv mass bed grains\n"
+    grains = "create_atoms 1 single 2e-3 2e-3 1e-3\nset type 1 diameter 1e-3 density 2650\n"
+    with scratch() as folder:
+        screen = program.must_run(empty + "lbm run 2e-3\n" + grains + "lbm run 2e-3\ndelete_atoms group all\n"
+                                  "lbm run 2e-3\n", folder)
+        series = columns(pathlib.Path(folder) / "m.csv")
+        expect("none: the fluid flows alone" in screen, "water without grains is not named")
+        expect(series["grains"][0] == 0 and series["grains"][-1] == 0, f"{series['grains']}")
+        volume = 4. / 3 * 3.14159265 * 0.5e-3 ** 3
+        box = 4e-3 * 4e-3 * 5e-3
+        with_grain = 1000 * (box - volume)
+        masses = series["fluid_mass_kg"]
+        expect(min(abs(mass / with_grain - 1) for mass in masses) < 1e-3, f"no sample has the grain: {masses}")
+        expect(abs(masses[-1] / (1000 * box) - 1) < 1e-3, f"a deleted grain stays solid: {masses}")
+        screen = program.must_run(empty + "lbm run 2 until steady 0.05 window 2e-3\n", folder, "steady")
+        expect("lbm run: steady after" in screen, f"never steady:\n{screen[-800:]}")
+        screen = program.must_run(wet_box() + WATER + "run 100\nlbm plan 0.5\nlbm run 1e-3\n", folder, "plan")
+        expect("lbm plan: 0.5 s are" in screen and "GB for the fluid" in screen, "no plan")
+
+
+def main():
+    program = program_from_command_line(__doc__)
+    largest = check_ranks(program)
+    check_restart(program)
+    check_steady_and_grains(program)
+    print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
+
+
+if __name__ == "__main__":
+    main()
