@@ -62,7 +62,6 @@ struct Point {
 /// Until the sphere is two diameters above the floor. `cells` across 1/70 of the tank's width times ten: the
 /// spacing is 10/7 mm / refinement.
 std::vector<Point> settle(const Experiment& e, double spacing, double relaxation_time, bool thesis = false) {
-  const double diameter = kDiameter / spacing;
   CoupledSettings settings =
       thesis ? thesis_settings(relaxation_time) : lattice_settings(relaxation_time, default_solids());
   settings.units.density = e.fluid_density;
