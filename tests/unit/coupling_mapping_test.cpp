@@ -64,8 +64,9 @@ TEST_CASE("loads do not depend on the number of ranks, nor on which copy of the 
     return signature(scene);
   };
   const double here = run(0, MPI_COMM_WORLD);
-  // On this rank alone. Sums over ranks add up in another order: round-off of some 1e4 terms of 1e-16.
-  CHECK(here == Approx(run(0, MPI_COMM_SELF)).epsilon(1e-11));
+  // On this rank alone. The solids' velocities in shared cells are summed in float, in an order that depends
+  // on the ranks: 6e-8 of a velocity; measured 3e-8 of the loads on four ranks.
+  CHECK(here == Approx(run(0, MPI_COMM_SELF)).epsilon(5e-7));
   // A shift by whole cells moves every sphere to other ranks and through other faces. Positions of that size
   // are rounded to 4e-7 cells in the mapping's floats.
   CHECK(run(7, MPI_COMM_WORLD) == Approx(here).epsilon(1e-5));
