@@ -23,7 +23,8 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
   }
   const double density = settings.collision.incompressible ? 1 : 1 + deviation;
   const PartialSolidCell solids = partial_solid(x, y, z);
-  if (!(solids.fraction > 0)) return {1 + deviation, momentum / density};
+  // Strengths are rounded more coarsely than fractions: the slightest may be zero.
+  if (!(solids.strength > 0)) return {1 + deviation, momentum / density};
   // What the cell's fluid and solids move at together: the drag's half step (force form) or the share of each
   // collision gives the same mean (docs key: nobletorczynski1998).
   const double weight = solid_weight(*partial_solids, solids, settings.collision.relaxation_time);
@@ -86,8 +87,23 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 
 template <class T>
 void FluidCore<T>::sweep(Kernel<T> kernel) {
+  const int planes = populations_.cells()[2];
+  if (!halo_.can_start_early(odd)) {
+    sweep_planes(kernel, 0, planes);
+    return;
+  }
+  sweep_planes(kernel, 0, 1);
+  sweep_planes(kernel, std::max(1, planes - 1), planes);
+  halo_.start_early(populations_, odd);
+  sweep_planes(kernel, 1, planes - 1);
+}
+
+template <class T>
+void FluidCore<T>::sweep_planes(Kernel<T> kernel, int begin_z, int end_z) {
   KernelCall<T> call = kernel_call();
-  if (!patches_.has_near_rows()) {
+  call.begin_z = begin_z;
+  call.end_z = end_z;
+  if (!patches_.has_near_rows() && !halo_.has_near_rows()) {
     kernel(call);
     return;
   }
@@ -97,13 +113,14 @@ void FluidCore<T>::sweep(Kernel<T> kernel) {
   const int rows = static_cast<int>(std::max<std::ptrdiff_t>(
       1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
   const Index3& cells = populations_.cells();
-  for (int z = 0; z < cells[2]; ++z)
+  for (int z = begin_z; z < end_z; ++z)
     for (int y = 0; y < cells[1]; y += rows) {
       call.begin_z = z;
       call.end_z = z + 1;
       call.begin_y = y;
       call.end_y = std::min(y + rows, cells[1]);
       kernel(call);
+      halo_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
       patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
     }
 }
