@@ -25,9 +25,8 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
   const PartialSolidCell solids = partial_solid(x, y, z);
   // A grain may cover so little of a cell that its strength is rounded to nothing.
   if (!(solids.strength > 0)) return {1 + deviation, momentum / density};
-  // What the cell's fluid and solids move at together: the drag's half step (force form) or the share of each
-  // collision gives the same mean (docs key: nobletorczynski1998).
-  const double weight = solid_weight(*partial_solids, solids, settings.collision.relaxation_time);
+  // What the cell's fluid and solids move at together.
+  const double weight = mean_share(*partial_solids, solids, settings.collision.relaxation_time);
   return {1 + deviation, (1 - weight) * momentum / density + weight * solids.momentum / solids.strength};
 }
 

@@ -59,6 +59,20 @@ double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell
   return strength * t / (1 - fraction + kLeastOpenShare * std::max(1., cell.fraction) + strength * t);
 }
 
+namespace {
+
+bool comes_twice_as_near(SolidOperator solid_operator) {
+  return solid_operator == SolidOperator::sc3 || solid_operator == SolidOperator::force;
+}
+
+}  // namespace
+
+double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& cell,
+                  double relaxation_time) {
+  return (comes_twice_as_near(settings.solid_operator) ? 1 : 0.5) *
+         solid_weight(settings, cell, relaxation_time);
+}
+
 HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time) {
   const double t = relaxation_time - 0.5;
   double whole = 1, slope = 0;  // of eps/B
@@ -68,9 +82,7 @@ HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, d
     whole = 1 + kLeastOpenShare / (coefficient * t);
     slope = 1 - 1 / (coefficient * t);
   }
-  const bool twice =
-      settings.solid_operator == SolidOperator::sc3 || settings.solid_operator == SolidOperator::force;
-  const double part = twice ? 0.5 : 1;
+  const double part = comes_twice_as_near(settings.solid_operator) ? 0.5 : 1;
   return {part * whole - 1, part * slope - 1};
 }
 

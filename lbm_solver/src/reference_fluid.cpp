@@ -57,7 +57,7 @@ FluidPoint ReferenceFluid::at(const Index3& cell) const {
   const Vec3 velocity = settings_.collision.incompressible ? momentum : Vec3(momentum / density);
   const PartialSolidCell& solids = solids_[index(cell)];
   if (!partial_ || !(solids.strength > 0)) return {density, velocity};
-  const double weight = solid_weight(*partial_, solids, settings_.collision.relaxation_time);
+  const double weight = mean_share(*partial_, solids, settings_.collision.relaxation_time);
   return {density, (1 - weight) * velocity + weight * solids.momentum / solids.strength};
 }
 

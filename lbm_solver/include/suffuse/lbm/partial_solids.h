@@ -39,6 +39,10 @@ struct PartialSolidCell {
 double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell& cell,
                     double relaxation_time);
 
+/// Share of the solids in the velocity of a cell over a step: the momentum before it and that after it, which
+/// is what streams, have this mean. B/2 (SC1, SC2) or B (SC3, `force`), see HeldTerms.
+double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& cell, double relaxation_time);
+
 /// In one step the momentum of a cell comes nearer to its solid's by the share B (SC1, SC2) or 2B (SC3,
 /// `force`) of the difference, and the exchange is what it gives. So after the step the cell is still
 /// exchange (1/share - 1) away; times the covered part eps that is exchange (whole + slope (eps - 1)),
