@@ -45,21 +45,32 @@ Flight fly(double tau, double diameter, double ratio, double speed) {
 
 }  // namespace
 
-TEST_CASE("free grains stay steady at every density, size, viscosity and speed") {
+namespace {
+
+void check_flight(double tau, double diameter, double ratio, double speed) {
+  const Flight flight = fly(tau, diameter, ratio, speed);
+  INFO("tau " << tau << ", " << diameter << " cells, density ratio " << ratio << ", speed " << speed
+              << ": fastest " << flight.fastest << ", late " << flight.late << ", jump " << flight.jump);
+  CHECK(flight.finite);
+  // The water only brakes. A light grain is thrown back first by the fluid that it had set in motion.
+  CHECK(flight.fastest < 1.3);
+  // Sound between a large, light sphere and its images swings on at low viscosity: it is an eighth of
+  // the box.
+  const bool rings = diameter > 8 && ratio < 0.5 && tau < 0.6;
+  CHECK(flight.jump < (rings ? 0.3 : 0.05));
+}
+
+}  // namespace
+
+TEST_CASE("free grains stay steady at the ends of the ranges of density, size and viscosity") {
+  const double tau = GENERATE(0.505, 1.5);
+  for (const double diameter : {1., 2., 5.})
+    for (const double ratio : {0.1, 0.3, 1.16, 7.8}) check_flight(tau, diameter, ratio, 0.05);
+}
+
+TEST_CASE("free grains stay steady at every density, size, viscosity and speed", "[.long]") {
   const double tau = GENERATE(0.505, 0.53, 0.8, 1.5);
   for (const double diameter : {1., 2., 5., 12.})
     for (const double ratio : {0.1, 0.3, 0.9, 1.16, 2.65, 7.8})
-      for (const double speed : {0.01, 0.05}) {
-        const Flight flight = fly(tau, diameter, ratio, speed);
-        INFO("tau " << tau << ", " << diameter << " cells, density ratio " << ratio << ", speed " << speed
-                    << ": fastest " << flight.fastest << ", late " << flight.late << ", jump "
-                    << flight.jump);
-        CHECK(flight.finite);
-        // The water only brakes. A light grain is thrown back first by the fluid that it had set in motion.
-        CHECK(flight.fastest < 1.3);
-        // Sound between a large, light sphere and its images swings on at low viscosity: it is an eighth of
-        // the box.
-        const bool rings = diameter > 8 && ratio < 0.5 && tau < 0.6;
-        CHECK(flight.jump < (rings ? 0.3 : 0.05));
-      }
+      for (const double speed : {0.01, 0.05}) check_flight(tau, diameter, ratio, speed);
 }

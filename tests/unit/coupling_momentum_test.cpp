@@ -144,16 +144,21 @@ TEST_CASE("A sphere let go in water starts with its buoyant weight over its own 
 }
 
 TEST_CASE("Grains lighter than the water rise steadily") {
+  // What ranks change is the first test's; one rank is enough for the physics.
+  int ranks = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  if (ranks > 1) return;
   const double ratio = GENERATE(0.9, 0.3, 0.1);
   const double tau = GENERATE(0.53, 0.8, 1.5);
   const double radius = GENERATE(1., 2.5, 6.);
+  const int cells = radius > 5 ? 32 : 20;
   // Slow enough for Stokes' law: gravity from a terminal velocity of 2e-3 cells a step.
   const double nu = lbm::viscosity_of(tau), dx = 1e-4;
-  Release scene(ratio, tau, radius, 32, 0);
+  Release scene(ratio, tau, radius, cells, 0);
   const double step = fluid_step(scene.settings), speed = 2e-3 * dx / step;
   const double g = 9. / 2 * 1e-6 * speed / (radius * radius * dx * dx) / (1 - ratio);
   scene.settings.gravity = scene.grains.gravity = Vec3(0, 0, -g);
-  CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {32, 32, 32}),
+  CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {cells, cells, cells}),
                                Vec3::Zero(), scene.grains);
   const int steps = static_cast<int>(std::min(600., 100 + 2 * radius * radius / nu));
   double fastest = 0, last = 0;
