@@ -40,7 +40,7 @@ run 1
 unfix insertion
 dem_timestep rayleigh 0.2 pressure 50
 thermo 20000
-run $(ceil(0.1/dt))
+run $(ceil(0.15/dt))
 
 compute layers all stress/layer z 1 bounds {0.5 * D} {2.5 * D}
 variable head equal 0
@@ -51,7 +51,7 @@ lbm boundary xlo periodic xhi periodic ylo periodic yhi periodic zlo pressure v_
 lbm force gravity 0 0 -9.81
 lbm run 0.03
 
-lbm monitor flow every 5e-4 file flow.csv superficial_velocity v_head as head_m c_layers[1][3] as stress_pa
+lbm monitor flow every 5e-4 file flow.csv superficial_velocity solid_force hydraulic_gradient v_head as head_m c_layers[1][3] as stress_pa
 variable start equal $(step*dt)
 variable head equal {CRITICAL_HEAD}*0.8*(step*dt-v_start)/{RAMP}
 write_dump_here rest
