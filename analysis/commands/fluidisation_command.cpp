@@ -58,6 +58,7 @@ struct Run {
   std::size_t stages = 0;         ///< 0: a ramp
   std::vector<std::size_t> sample_of_state;
   double terzaghi = 0;
+  std::optional<double> of_all_grains;  ///< Terzaghi's, with what sticks out above the layers
   Fluidisation result;
 };
 
@@ -94,12 +95,19 @@ Run measured(const Options& options, const NumberTable& table) {
   }
   for (const FlowState& state : run.states) run.gradient.push_back(bed_gradient(state.gradient));
   run.terzaghi = critical_gradient(run.record.porosity, options.grain_density, options.fluid);
+  if (run.record.solids_over_layers)
+    run.of_all_grains =
+        critical_gradient(1 - *run.record.solids_over_layers, options.grain_density, options.fluid);
   run.result = measure_fluidisation(run.states, run.terzaghi, run.record.height, settings);
   return run;
 }
 
-std::string percent_of(double value, double reference) {
-  return fmt::format("{:+.2f} % of Terzaghi's", 100 * (value / reference - 1));
+/// How far a gradient is from Terzaghi's, and from that of all grains where it is known.
+std::string distance(const Run& run, double value) {
+  std::string text = fmt::format("{:+.2f} % of Terzaghi's", 100 * (value / run.terzaghi - 1));
+  if (run.of_all_grains)
+    text += fmt::format(", {:+.2f} % of that of all grains", 100 * (value / *run.of_all_grains - 1));
+  return text;
 }
 
 void add_state_at_rest(ResultRows& rows, const Run& run, const Options& options) {
@@ -147,15 +155,18 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
   const Fluidisation& result = run.result;
   rows.add("critical gradient, Terzaghi", "i_cr", run.terzaghi, "-", "terzaghi1943",
            "(rho_s/rho_f - 1)(1 - n) at the measured porosity");
+  if (run.of_all_grains)
+    rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
+             "with those that stick out above the height of the layers");
   if (result.stress && result.stress->slope < 0)
     rows.add("critical gradient, stress vanishes", "i_cr", result.stress->root(), "-",
-             "line of sigma' over i", percent_of(result.stress->root(), run.terzaghi));
+             "line of sigma' over i", distance(run, result.stress->root()));
   if (result.onset) {
     const OnsetOfMotion& onset = *result.onset;
     const auto [gradient, half_width] = onset_gradient(run);
     rows.add(
         "critical gradient, bed begins to move", "i_cr", gradient, "-", "rise of the centre",
-        percent_of(gradient, run.terzaghi) +
+        distance(run, gradient) +
             (run.stages > 0
                  ? fmt::format(", within {:.4f}: middle of last stable and first unstable stage", half_width)
                  : std::string()));
@@ -198,9 +209,9 @@ void add_contact_network(ResultRows& rows, const Run& run, const NumberTable& ta
           fmt::format("last state at rest, i = {:.4f}{}", run.gradient[before], verdict(values[before])));
     }
     if (!is_ratio) continue;
-    if (const auto fall = gradient_at_fall(run.gradient, values, 1))
-      rows.add("gradient at which R falls below 1 for good", "i", *fall, "-", "haq, section 6.5.7",
-               percent_of(*fall, run.terzaghi));
+    if (const auto fall = gradient_at_fall(run.gradient, values, 1, run.stages > 0 ? 1 : 3))
+      rows.add("gradient at which R falls below 1", "i", *fall, "-", "haq, section 6.5.7",
+               distance(run, *fall));
   }
 }
 
