@@ -158,7 +158,8 @@ TEST_CASE("Grains lighter than the water rise steadily") {
   const double step = fluid_step(scene.settings), speed = 2e-3 * dx / step;
   const double g = 9. / 2 * 1e-6 * speed / (radius * radius * dx * dx) / (1 - ratio);
   scene.settings.gravity = scene.grains.gravity = Vec3(0, 0, -g);
-  CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {cells, cells, cells}),
+  CoupledSimulation simulation(scene.settings,
+                               lbm::Decomposition::balanced(MPI_COMM_WORLD, {cells, cells, cells}),
                                Vec3::Zero(), scene.grains);
   const int steps = static_cast<int>(std::min(600., 100 + 2 * radius * radius / nu));
   double fastest = 0, last = 0;
