@@ -9,6 +9,7 @@
 #include "comm.h"
 #include "lammps.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/coupling/automatic_coefficient.h"
 #include "timer.h"
 #include "update.h"
 
@@ -97,6 +98,14 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
         fmt::format("lbm plan: {} grains, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}\n",
                     grains.grains, 2 * grains.smallest_radius / units.spacing(),
                     2 * grains.largest_radius / units.spacing(), grains.sauter_diameter / units.spacing());
+  const SolidSettings& solids = settings.solids;
+  const bool calibrated = solids.automatic_coefficient &&
+                          solids.cells.solid_operator == lbm::SolidOperator::force &&
+                          solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  if (grains.grains > 0 && calibrated)
+    text +=
+        fmt::format("lbm plan: expected error of the permeability: about {:.0f} %\n",
+                    std::ceil(100 * expected_permeability_error(grains.sauter_diameter / units.spacing())));
   text += fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
   const auto row = [&](const char* name, double seconds) {
     text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));

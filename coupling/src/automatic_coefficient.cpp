@@ -1,6 +1,7 @@
 #include "suffuse/coupling/automatic_coefficient.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "pore_kernels.h"
@@ -35,6 +36,16 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
       throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
                         "give a number, or change the operator"});
   }
+}
+
+double expected_permeability_error(double cells_per_sauter_diameter) {
+  struct Row {
+    double cells, error;
+  };
+  constexpr Row coarse{5, 0.06}, fine{8, 0.04};
+  const double order = std::log(coarse.error / fine.error) / std::log(fine.cells / coarse.cells);
+  const double cells = std::clamp(cells_per_sauter_diameter, 1., fine.cells);
+  return coarse.error * std::pow(coarse.cells / cells, order);
 }
 
 double crowding_of(const PoreSums& sums, double radius) {

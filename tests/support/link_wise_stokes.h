@@ -6,7 +6,7 @@ namespace suffuse::coupling {
 
 enum class LinkRule {
   halfway,      ///< bounce-back half-way between centres: cells are solid or fluid
-  interpolated  ///< CLI of Ginzburg, Verhaeghe & d'Humieres: second order in where a link cuts a sphere
+  interpolated  ///< CLI (docs key: ginzburg2008): second order in where a link cuts a sphere
 };
 
 /// K of held spheres by another method than the solver's partly covered cells, with code of its own: Stokes

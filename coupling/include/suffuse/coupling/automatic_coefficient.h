@@ -30,6 +30,12 @@ inline constexpr double kLargestCoefficient = 15;
 /// The law of an operator. A UserError for one that has none: `force` and `sc3` do.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
+/// Expected error of a packing's permeability (a share: 0.03 is 3 %) with `force`, the automatic coefficient
+/// and so many cells a Sauter diameter: the largest found in packings that were not fitted
+/// (docs/decisions/solid-operator.md), in between by interpolation of the logarithms, no less than at the
+/// finest. Below 5 cells it is extrapolated and no more than a guess. Always > 0, falls with resolution.
+double expected_permeability_error(double cells_per_sauter_diameter);
+
 /// What one rank's cells tell of the pores around a sphere: lattice units.
 struct PoreSums {
   double volume = 0, surface = 0;
