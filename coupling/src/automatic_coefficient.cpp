@@ -29,7 +29,7 @@ double CoefficientLaw::operator()(double diameter, double crowding) const {
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
   switch (solid_operator) {
     case lbm::SolidOperator::force:
-      return {1.945, 5, 12.3, 81};
+      return {2.07, 5.163, 10.21, 90.5};
     case lbm::SolidOperator::sc3:
       return {0.64, 5.3, 6.34, 44.5};
     default:
