@@ -151,20 +151,24 @@ def fit(program, operator, data, table, rounds):
 
 def report(program, operator, data, table):
     drags = reference_drags(data, table)
-    rows = [row for p in HELD_OUT for row in run(program, [p], "5,8", operator, None, "0.3,0.8")]
+    held_out = [p for p in HELD_OUT if p in drags]
+    rows = [row for p in held_out for row in run(program, [p], "5,8", operator, None, "0.3,0.8")]
     for row in rows:
         drag, doubt = drags[row["packing"]]
         row["reference_K"], row["reference_doubt_percent"] = f"{drag:.4f}", f"{100 * doubt:.2f}"
         row["error_percent"] = f"{100 * (float(row['drag_K']) / drag - 1):.2f}"
         print("%-24s D=%-8s K=%-10s error %6s %%" % (row["packing"], row["diameter_cells"], row["drag_K"], row["error_percent"]))
+    for diameter in (5, 8):
+        errors = np.array([float(r["error_percent"]) for r in rows if abs(float(r["diameter_cells"]) / diameter - 1) < 0.05])
+        print(f"at {diameter}: root mean square {np.sqrt(np.mean(errors ** 2)):.2f} %, largest {abs(errors).max():.2f} %")
     write(data / f"coefficient_held_out_{operator}.csv", rows)
     with open(table.parent / "packing_drags.csv", "w", encoding="utf-8") as file:
         file.write("packing,drag_K,doubt_percent\n")
-        for name in HELD_OUT:
+        for name in held_out:
             file.write(f"{name},{drags[name][0]:.4f},{100 * drags[name][1]:.2f}\n")
 
 
-def figure(data, path):
+def figure(data, out):
     import matplotlib
 
     matplotlib.use("Agg")
@@ -175,14 +179,15 @@ def figure(data, path):
         groups = (("fit", ARRAYS, "+", "0.6", "arrays, fitted"), ("fit", FITTED, "x", "C0", "random, fitted"),
                   ("held_out", HELD_OUT, "o", "C3", "random, not fitted"))
         for name, packings, marker, color, label in groups:
-            rows = [r for r in read(data / f"coefficient_{name}_{operator}.csv") if r["packing"] in packings]
+            path = data / f"coefficient_{name}_{operator}.csv"
+            rows = [r for r in read(path) if r["packing"] in packings] if path.exists() else []
             axis.plot(column(rows, "diameter_cells"), column(rows, "error_percent"), marker, color=color, ms=4, label=label)
         axis.fill_between([4, 6.5, 6.5, 17], [-3, -3, -2, -2], [3, 3, 2, 2], color="0.9", zorder=0)
-        axis.set(xlabel="Sauter diameter in cells", title=operator, ylim=(-10, 10))
+        axis.set(xlabel="Sauter diameter in cells", title=operator, ylim=(-20, 20))
     axes[0].set_ylabel("error of the drag, %")
     axes[0].legend(fontsize=7)
     fig.tight_layout()
-    fig.savefig(path, dpi=80)
+    fig.savefig(out, dpi=80)
 
 
 def main():

@@ -73,6 +73,12 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
   return costs;
 }
 
+std::string error_line(double cells) {
+  return fmt::format(
+      "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %)\n",
+      100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells));
+}
+
 }  // namespace
 
 void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm::Decomposition& parts,
@@ -104,10 +110,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   const bool calibrated = solids.automatic_coefficient &&
                           solids.cells.solid_operator == lbm::SolidOperator::force &&
                           solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
-  if (grains.grains > 0 && calibrated)
-    text +=
-        fmt::format("lbm plan: expected error of the permeability: about {:.0f} %\n",
-                    std::ceil(100 * expected_permeability_error(grains.sauter_diameter / units.spacing())));
+  if (grains.grains > 0 && calibrated) text += error_line(grains.sauter_diameter / units.spacing());
   text += fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
   const auto row = [&](const char* name, double seconds) {
     text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));
