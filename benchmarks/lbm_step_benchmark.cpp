@@ -56,7 +56,7 @@ void run_scene(benchmark::State& state, const Scene& scene) {
   Fluid fluid(scene.settings, Decomposition::balanced(MPI_COMM_WORLD, scene.cells));
   fluid.set_force(scene.force);
   const double cells = static_cast<double>(CellBox{{0, 0, 0}, scene.cells}.volume());
-  const int sweeps = std::max(2, 2 * static_cast<int>(1.5e7 / cells));  // even: both kinds of step
+  const int sweeps = std::max(2, 2 * static_cast<int>(5e6 / cells));  // even: both kinds of step
   fluid.run(2);
   std::vector<double> ratios, bare_times, step_times;
   for (auto _ : state) {

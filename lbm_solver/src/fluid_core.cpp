@@ -84,8 +84,23 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 
 template <class T>
 void FluidCore<T>::sweep(Kernel<T> kernel) {
+  const int planes = populations_.cells()[2];
+  if (!halo_.can_start_early(odd)) {
+    sweep_planes(kernel, 0, planes);
+    return;
+  }
+  sweep_planes(kernel, 0, 1);
+  sweep_planes(kernel, std::max(1, planes - 1), planes);
+  halo_.start_early(populations_, odd);
+  sweep_planes(kernel, 1, planes - 1);
+}
+
+template <class T>
+void FluidCore<T>::sweep_planes(Kernel<T> kernel, int begin_z, int end_z) {
   KernelCall<T> call = kernel_call();
-  if (!patches_.has_near_rows()) {
+  call.begin_z = begin_z;
+  call.end_z = end_z;
+  if (!patches_.has_near_rows() && !halo_.has_near_rows()) {
     kernel(call);
     return;
   }
@@ -95,13 +110,14 @@ void FluidCore<T>::sweep(Kernel<T> kernel) {
   const int rows = static_cast<int>(std::max<std::ptrdiff_t>(
       1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
   const Index3& cells = populations_.cells();
-  for (int z = 0; z < cells[2]; ++z)
+  for (int z = begin_z; z < end_z; ++z)
     for (int y = 0; y < cells[1]; y += rows) {
       call.begin_z = z;
       call.end_z = z + 1;
       call.begin_y = y;
       call.end_y = std::min(y + rows, cells[1]);
       kernel(call);
+      halo_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
       patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
     }
 }

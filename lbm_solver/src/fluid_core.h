@@ -71,6 +71,7 @@ class FluidCore final : public FluidCoreBase {
   KernelCall<T> kernel_call();
   SolidKind solid_kind() const;
   void sweep(Kernel<T> kernel);
+  void sweep_planes(Kernel<T> kernel, int begin_z, int end_z);
   std::ptrdiff_t place(int direction, int x, int y, int z) const;
 
   Populations<T> populations_;

@@ -96,10 +96,88 @@ void HaloExchange<T>::fold(Populations<T>& populations) {
 
 template <class T>
 void HaloExchange<T>::run_axis(Populations<T>& populations, int axis, bool folding) {
-  exchange(populations, axis, folding);
-  for (const bool high : {false, true})
-    if (partners_[static_cast<std::size_t>(face_at(axis, high))] == Partner::mirror)
+  const auto low = static_cast<std::size_t>(face_at(axis, false));
+  if (axis == 2 && started_)
+    finish(populations, axis, folding);
+  else if (axis > 0 || partners_[low] != Partner::self)
+    exchange(populations, axis, folding);
+  if (axis == 2) started_ = false;
+  for (const bool high : {false, true}) {
+    const std::size_t face = low + (high ? 1 : 0);
+    if (axis == 0 && is_local(face))
+      copy_far_rows(populations, high, folding);
+    else if (partners_[face] == Partner::mirror)
       mirror(populations, axis, high, folding);
+  }
+}
+
+/// Cells of a sub-box's layers across x whose places for a direction are written by cells of the sub-box: all
+/// by an even step, by an odd one those whose neighbour against the direction is inside along y and z.
+template <class T>
+CellBox HaloExchange<T>::near_rows(const Index3& cells, int direction, bool folding) {
+  CellBox box{{0, 0, 0}, {1, cells[1], cells[2]}};
+  if (!folding) return box;
+  for (std::size_t a = 1; a < 3; ++a) {
+    box.lo[a] += std::max(0, kVelocity[direction][a]);
+    box.hi[a] += std::min(0, kVelocity[direction][a]);
+  }
+  return box;
+}
+
+/// One direction that leaves across x, in the given rows: what `fill` and `fold` copy for a local face.
+template <class T>
+void HaloExchange<T>::copy_rows(Populations<T>& populations, int direction, bool folding,
+                                const CellBox& rows) const {
+  const int cells = populations.cells()[0];
+  const bool high = kVelocity[direction][0] > 0;
+  const bool mirrors = partners_[high ? 1 : 0] == Partner::mirror;
+  T* ghost = populations.slot(direction) + (high ? cells : -1);
+  T* inside = mirrors ? populations.slot(reflected(direction, 0)) + (high ? cells - 1 : 0)
+                      : populations.slot(direction) + (high ? 0 : cells - 1);
+  const T* from = folding ? ghost : inside;
+  T* to = folding ? inside : ghost;
+  for (int z = rows.lo[2]; z < rows.hi[2]; ++z)
+    for (int y = rows.lo[1]; y < rows.hi[1]; ++y) {
+      const std::ptrdiff_t row = populations.index(0, y, z);
+      to[row] = from[row];
+    }
+}
+
+template <class T>
+void HaloExchange<T>::apply_near_rows(Populations<T>& populations, bool after_odd_step, int begin_y,
+                                      int end_y, int z) const {
+  for (const bool high : {false, true}) {
+    if (!is_local(high ? 1 : 0)) continue;
+    for (const int i : leaving(0, high)) {
+      // An odd step has written the places one cell along the direction.
+      const int up = after_odd_step ? kVelocity[i][1] : 0, out = after_odd_step ? kVelocity[i][2] : 0;
+      CellBox rows = near_rows(populations.cells(), i, after_odd_step);
+      if (z + out < rows.lo[2] || z + out >= rows.hi[2]) continue;
+      rows.lo[2] = z + out;
+      rows.hi[2] = z + out + 1;
+      rows.lo[1] = std::max(rows.lo[1], begin_y + up);
+      rows.hi[1] = std::min(rows.hi[1], end_y + up);
+      copy_rows(populations, i, after_odd_step, rows);
+    }
+  }
+}
+
+/// The rows of a local face across x that apply_near_rows leaves: those beyond pressure faces, and what came
+/// in across y and z.
+template <class T>
+void HaloExchange<T>::copy_far_rows(Populations<T>& populations, bool high, bool folding) const {
+  const CellBox all = layer(populations.cells(), 0, 0);
+  for (const int i : leaving(0, high)) {
+    const CellBox near = near_rows(populations.cells(), i, folding);
+    CellBox below = all, above = all, before = near, behind = near;
+    below.hi[2] = near.lo[2];
+    above.lo[2] = near.hi[2];
+    before.lo[1] = all.lo[1];
+    before.hi[1] = near.lo[1];
+    behind.lo[1] = near.hi[1];
+    behind.hi[1] = all.hi[1];
+    for (const CellBox& rows : {below, above, before, behind}) copy_rows(populations, i, folding, rows);
+  }
 }
 
 template <class T>
@@ -125,9 +203,14 @@ void HaloExchange<T>::mirror(Populations<T>& populations, int axis, bool high, b
 
 template <class T>
 void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool folding) {
+  post(populations, axis, folding);
+  finish(populations, axis, folding);
+}
+
+template <class T>
+void HaloExchange<T>::post(Populations<T>& populations, int axis, bool folding) {
   const int cells = populations.cells()[static_cast<std::size_t>(axis)];
-  MPI_Request requests[4];
-  int pending = 0;
+  Messages& messages = messages_[static_cast<std::size_t>(axis)];
   // The ghost layer beyond a face and the first layer inside that face's neighbour are the same places of the
   // whole box, for the directions that leave through the face: filling copies inside -> ghost, folding ghost
   // -> inside.
@@ -138,7 +221,7 @@ void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool foldi
     const CellBox ghost = layer(populations.cells(), axis, high ? cells : -1);
     const CellBox inside = layer(populations.cells(), axis, high ? 0 : cells - 1);
     const std::size_t from = folding ? face : against, to = folding ? against : face;
-    std::vector<T>&out = send_[high], &in = receive_[high];
+    std::vector<T>&out = messages.send[high], &in = messages.receive[high];
     if (partners_[from] == Partner::other || partners_[from] == Partner::self)
       pack(populations, directions, folding ? ghost : inside, out);
     if (partners_[from] == Partner::self) {
@@ -148,19 +231,61 @@ void HaloExchange<T>::exchange(Populations<T>& populations, int axis, bool foldi
     if (partners_[to] == Partner::other) {
       in.resize(5 * ghost.volume());
       MPI_Irecv(in.data(), static_cast<int>(in.size()), mpi_type<T>(), neighbours_[to], 2 * axis + high,
-                communicator_, &requests[pending++]);
+                communicator_, &messages.requests[messages.pending++]);
     }
     if (partners_[from] == Partner::other)
       MPI_Isend(out.data(), static_cast<int>(out.size()), mpi_type<T>(), neighbours_[from], 2 * axis + high,
-                communicator_, &requests[pending++]);
+                communicator_, &messages.requests[messages.pending++]);
   }
-  MPI_Waitall(pending, requests, MPI_STATUSES_IGNORE);
+}
+
+template <class T>
+void HaloExchange<T>::finish(Populations<T>& populations, int axis, bool folding) {
+  const int cells = populations.cells()[static_cast<std::size_t>(axis)];
+  Messages& messages = messages_[static_cast<std::size_t>(axis)];
+  MPI_Waitall(messages.pending, messages.requests, MPI_STATUSES_IGNORE);
+  messages.pending = 0;
   for (const bool high : {false, true}) {
     const auto to = static_cast<std::size_t>(face_at(axis, folding ? !high : high));
     if (partners_[to] != Partner::other) continue;
     const CellBox box = folding ? layer(populations.cells(), axis, high ? 0 : cells - 1)
                                 : layer(populations.cells(), axis, high ? cells : -1);
-    unpack(populations, leaving(axis, high), box, receive_[high]);
+    unpack(populations, leaving(axis, high), box, messages.receive[high]);
+  }
+}
+
+template <class T>
+bool HaloExchange<T>::can_start_early(bool after_odd_step) const {
+  bool possible = partners_[4] == Partner::other || partners_[5] == Partner::other;
+  for (std::size_t face = 0; face < 4; ++face)
+    possible &= !pressure_[face] && (after_odd_step || partners_[face] != Partner::other);
+  return possible;
+}
+
+template <class T>
+void HaloExchange<T>::start_early(Populations<T>& populations, bool after_odd_step) {
+  const Index3& cells = populations.cells();
+  if (!after_odd_step)
+    for (const int z : {0, cells[2] - 1}) fill_rows_beyond_y(populations, z);
+  post(populations, 2, after_odd_step);
+  started_ = true;
+}
+
+/// Local faces across y, in one plane: what run_axis would do for it, and does again with the others.
+template <class T>
+void HaloExchange<T>::fill_rows_beyond_y(Populations<T>& populations, int z) const {
+  const int cells = populations.cells()[1];
+  for (const bool high : {false, true}) {
+    const std::size_t face = high ? 3 : 2;
+    if (!is_local(face)) continue;
+    const bool mirrors = partners_[face] == Partner::mirror;
+    for (const int i : leaving(1, high)) {
+      const T* inside =
+          mirrors ? populations.slot(reflected(i, 1)) + populations.index(-1, high ? cells - 1 : 0, z)
+                  : populations.slot(i) + populations.index(-1, high ? 0 : cells - 1, z);
+      std::copy_n(inside, populations.cells()[0] + 2,
+                  populations.slot(i) + populations.index(-1, high ? cells : -1, z));
+    }
   }
 }
 

@@ -8,16 +8,19 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
 /// Density's deviation and momentum of the populations as they stand, summed as trees: short chains of
 /// additions let the processor work on the next cells meanwhile.
-template <class T>
-[[gnu::always_inline]] inline void add_up(const Pack<T> (&g)[kDirections], Pack<T>& density_deviation,
+template <class T, class Populations>
+[[gnu::always_inline]] inline void add_up(const Populations& g, Pack<T>& density_deviation,
                                           Pack<T> (&momentum)[3]) {
   Pack<T> s[kDirections], d[kDirections];
 #pragma GCC unroll 9
   for (int i = 1; i < kDirections; i += 2) {
-    s[i] = g[i] + g[i + 1];
-    d[i] = g[i] - g[i + 1];
+    const Pack<T> forward = g.get(i), backward = g.get(i + 1);
+    s[i] = forward + backward;
+    d[i] = forward - backward;
   }
-  density_deviation = ((s[1] + s[3]) + (s[5] + s[7])) + ((s[9] + s[11]) + (s[13] + s[15])) + (s[17] + g[0]);
+  // The sums of planes are what the operators need again.
+  density_deviation =
+      (((s[1] + s[3]) + s[5]) + g.get(0)) + (((s[7] + s[9]) + (s[11] + s[13])) + (s[15] + s[17]));
   momentum[0] = d[1] + ((d[7] + d[9]) + (d[11] + d[13]));
   momentum[1] = d[3] + ((d[7] - d[9]) + (d[15] + d[17]));
   momentum[2] = d[5] + ((d[11] - d[13]) + (d[15] - d[17]));
@@ -25,26 +28,27 @@ template <class T>
 
 /// Collides one pack of cells, `lanes` of which lie in the row. g: populations less weights, changed in
 /// place.
-template <class Operator, class Solid, bool kForced, class T>
-[[gnu::always_inline]] inline void collide_pack(Pack<T> (&g)[kDirections], std::ptrdiff_t cells, int lanes,
+template <class Operator, class Solid, bool kForced, class T, class Populations>
+[[gnu::always_inline]] inline void collide_pack(Populations& g, std::ptrdiff_t cells, int lanes,
                                                 const KernelCall<T>& call) {
   CellPack<T> cell;
-  Pack<T> momentum[3];
-  add_up<T>(g, cell.density_deviation, momentum);
+  add_up<T>(g, cell.density_deviation, cell.momentum);
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) cell.force[a] = broadcast<T>(call.force[a]);
   cell.density = T(1) + call.compressibility * cell.density_deviation;
-  if constexpr (Solid::kAddsForce) Solid::force(cells, lanes, call, cell.density, momentum, cell.force);
+  if constexpr (Solid::kAddsForce) Solid::force(cells, lanes, call, cell.density, cell.momentum, cell.force);
   if constexpr (kForced)
-    for (int a = 0; a < 3; ++a) momentum[a] = momentum[a] + T(0.5) * cell.force[a];
-  const Pack<T> inverse = T(1) / cell.density;
-  for (int a = 0; a < 3; ++a) cell.velocity[a] = momentum[a] * inverse;
+    for (int a = 0; a < 3; ++a) cell.momentum[a] = cell.momentum[a] + T(0.5) * cell.force[a];
+  cell.inverse_density = T(1) / cell.density;
+  for (int a = 0; a < 3; ++a) cell.velocity[a] = cell.momentum[a] * cell.inverse_density;
 
-  Pack<T> before[kDirections];
-  if constexpr (Solid::kMixes)
-    for (int i = 0; i < kDirections; ++i) before[i] = g[i];
-  Operator::template collide<T>(g, cell, call);
-  if constexpr (Solid::kMixes) Solid::mix(cells, lanes, call, cell, before, g);
+  if constexpr (Solid::kMixes) {
+    const Populations before = g;
+    Operator::template collide<T>(g, cell, call);
+    Solid::mix(cells, lanes, call, cell, before.values, g.values);
+  } else {
+    Operator::template collide<T>(g, cell, call);
+  }
 }
 
 /// How far ahead of a load its stream is fetched. Nineteen streams are more than the hardware prefetcher of
@@ -52,6 +56,10 @@ template <class Operator, class Solid, bool kForced, class T>
 /// float, with 256 or 512 bytes 0.93 and 0.87 (docs/performance.md). Fetching past the end of a row is the
 /// next row; past the array, harmless.
 inline constexpr int kPrefetchBytes = 512;
+inline constexpr int kLineBytes = 64;  ///< each cache line is fetched once
+
+/// Whether 19 populations and what a collision needs besides are too many for the registers.
+inline constexpr bool kFewRegisters = kPackBytes < 64;
 
 /// Steps `packs` packs of neighbouring cells. The last part of a row, shorter than a pack, comes here as well
 /// (see below), so that every cell goes through these very instructions and results do not depend on how rows
@@ -65,15 +73,22 @@ template <class T, class Operator, class Solid, bool kForced>
 #pragma GCC unroll 19
   for (int i = 0; i < kDirections; ++i) p[i] = place[i];
   for (std::ptrdiff_t x = 0; x < packs * width; x += width) {
-    Pack<T> g[kDirections];
+    if (kPackBytes == kLineBytes || x % (kLineBytes / static_cast<int>(sizeof(T))) == 0) {
 #pragma GCC unroll 19
-    for (int i = 0; i < kDirections; ++i) {
-      g[i] = load<T>(p[i] + x);
-      __builtin_prefetch(reinterpret_cast<const char*>(p[i] + x) + kPrefetchBytes, 1);
+      for (int i = 0; i < kDirections; ++i)
+        __builtin_prefetch(reinterpret_cast<const char*>(p[i] + x) + kPrefetchBytes, 1);
     }
-    collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
+    if constexpr (kFewRegisters && !Solid::kMixes) {
+      PlacedPopulations<T> g{p, x};
+      collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
+    } else {
+      HeldPopulations<T> g;
 #pragma GCC unroll 19
-    for (int i = 0; i < kDirections; ++i) store<T>(p[opposite(i)] + x, g[i]);
+      for (int i = 0; i < kDirections; ++i) g.values[i] = load<T>(p[i] + x);
+      collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
+#pragma GCC unroll 19
+      for (int i = 0; i < kDirections; ++i) store<T>(p[opposite(i)] + x, g.values[i]);
+    }
   }
 }
 
