@@ -61,6 +61,29 @@ Vec3 vector_at(const double* values, int n) {
   return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
 }
 
+/// Maps the spheres to the rows that the fluid is about to sweep, and adds up what they received after it.
+class MapAndSum final : public lbm::RowVisitor {
+ public:
+  MapAndSum(SolidMapping& mapping, CoupledTimes& times, bool loads_wanted)
+      : mapping_(mapping), times_(times), loads_wanted_(loads_wanted) {}
+
+  void before(const lbm::RowBlock& block) override {
+    if (!mapping_.is_stale()) return;
+    const Stopwatch watch(times_.mapping);
+    mapping_.write_rows(block);
+  }
+  void after(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange) override {
+    const Stopwatch watch(times_.exchange);
+    mapping_.sum_rows(block, exchange);
+  }
+  bool reads_exchange() const override { return loads_wanted_; }
+
+ private:
+  SolidMapping& mapping_;
+  CoupledTimes& times_;
+  bool loads_wanted_;
+};
+
 }  // namespace
 
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
@@ -71,7 +94,8 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       grains_(grains),
       fluid_(fluid_settings(settings, units_), decomposition),
       cells_(fluid_.use_partial_solids(settings_.solids.cells)),
-      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box()),
+      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box(),
+               fluid_.rows_per_block()),
       pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
@@ -88,14 +112,21 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
 }
 
 void CoupledSimulation::map() {
+  place_spheres();
+  const Stopwatch watch(times_.mapping);
+  mapping_.write();
+}
+
+void CoupledSimulation::place_spheres() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.mapping);
   read_spheres(grains);
-  remapped_ = mapping_.update(spheres_);
+  remapped_ = mapping_.place(spheres_);
   if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
+  mapping_.write();
   survey(grains);
   read_spheres(grains_.grains());
-  remapped_ += mapping_.update(spheres_);
+  remapped_ += mapping_.place(spheres_);
 }
 
 /// The same answer on all ranks.
@@ -161,8 +192,8 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
   const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], newton_metre = newton * units_.spacing();
   force_.assign(3 * static_cast<std::size_t>(grains.total), 0);
   torque_.assign(force_.size(), 0);
-  for (const std::size_t n : mapping_.order()) {
-    const LatticeLoad load = mapping_.load_of(n);
+  for (std::size_t n = 0; n < mapping_.loads().size(); ++n) {
+    const LatticeLoad& load = mapping_.loads()[n];
     for (std::size_t a = 0; a < 3; ++a) {
       force_[3 * n + a] = load.force[a] * newton;
       torque_[3 * n + a] = load.torque[a] * newton_metre;
@@ -248,6 +279,15 @@ void CoupledSimulation::refresh_loads() {
   int stale = loads_are_current_ ? 0 : 1, any = 0;
   MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
   if (any == 0) return;
+  {
+    const Stopwatch watch(times_.exchange);
+    mapping_.sum();
+  }
+  hand_loads_over();
+}
+
+/// From the sums of `mapping_`.
+void CoupledSimulation::hand_loads_over() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
@@ -255,14 +295,25 @@ void CoupledSimulation::refresh_loads() {
   hand_over(grains);
 }
 
-void CoupledSimulation::step() {
-  map();
-  {
-    const Stopwatch watch(times_.fluid);
+void CoupledSimulation::step_fluid(bool loads_wanted) {
+  const double start = MPI_Wtime(), before = times_.mapping + times_.exchange;
+  if (loads_wanted || mapping_.is_stale()) {
+    MapAndSum visitor(mapping_, times_, loads_wanted);
+    if (loads_wanted) mapping_.begin_loads();
+    fluid_.step(visitor);
+    mapping_.finish_writing();
+  } else {
     fluid_.step();
   }
+  times_.fluid += MPI_Wtime() - start - (times_.mapping + times_.exchange - before);
+}
+
+void CoupledSimulation::step() {
+  place_spheres();
+  const bool loads_wanted = grains_.reads_loads(substeps_);
+  step_fluid(loads_wanted);
   loads_are_current_ = false;
-  if (grains_.reads_loads(substeps_)) refresh_loads();
+  if (loads_wanted) hand_loads_over();
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);
 }

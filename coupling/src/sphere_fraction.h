@@ -64,21 +64,9 @@ inline constexpr float kLeastRadius = 2.f;
 
 /// What is the same for all cells of a sphere.
 struct Sphere {
-  float radius, reach;
-  float linear_offset;  ///< f(r) of the linear rule
+  float radius;
+  float linear_offset;  ///< see linear_offset()
   int parts;            ///< cells are cut into parts^3
-
-  Sphere(double r, int subcells)
-      : radius(static_cast<float>(r)), reach(radius + kHalfDiagonal), parts(subcells) {
-    // Jones & Williams (docs key: joneswilliams2017): the fraction of a cell with a face towards the centre
-    // at distance d is f(r) - (d - r), with f = V_a - r + 1/2 and V_a the volume under the sphere over a unit
-    // square.
-    const double square = r * r, s = __builtin_sqrt(square > 0.5 ? square - 0.5 : 0.);
-    const double volume = (1. / 12 - square) * __builtin_atan(0.5 * s / (0.5 - square)) + s / 3 +
-                          (square - 1. / 12) * __builtin_atan(0.5 / s) -
-                          4. / 3 * r * square * __builtin_atan(0.25 / (r * s));
-    linear_offset = static_cast<float>(square > 0.5 ? volume - r + 0.5 : 0.5);
-  }
 };
 
 /// Part of a cube of edge 1 with its centre at (x, y, z) from the centre of a sphere, by the plane through
@@ -116,9 +104,9 @@ template <FractionMethod kMethod>
     const Floats fraction = (sphere.linear_offset + sphere.radius) - square_root(squared);
     return lesser(greater(fraction, Floats{}), Floats{} + 1.f);
   }
-  const float inside = sphere.radius - kHalfDiagonal;
+  const float inside = sphere.radius - kHalfDiagonal, outside = sphere.radius + kHalfDiagonal;
   const Floats in = inside > 0 ? (squared < inside * inside ? Floats{} + 1.f : Floats{}) : Floats{};
-  const Floats out = squared > sphere.reach * sphere.reach ? Floats{} + 1.f : Floats{};
+  const Floats out = squared > outside * outside ? Floats{} + 1.f : Floats{};
   if (!any(1.f - (in + out))) return in;
   Floats fraction{};
   if constexpr (kMethod == FractionMethod::exact) {

@@ -1,5 +1,6 @@
-// Grains and water from C++, without a script for the water: what `lbm run` does, in the manner of the thesis's
-// Appendix C. LIGGGHTS is opened as a library and told about the grains; CoupledSimulation owns the fluid.
+// Grains and water from C++, without a script for the water: what `lbm run` does, in the manner of the
+// thesis's Appendix C. LIGGGHTS is opened as a library and told about the grains; CoupledSimulation owns the
+// fluid.
 //
 //   mpirun -np 2 example_coupled_without_script
 //
@@ -69,8 +70,8 @@ void run() {
   coupling::LiggghtsPort grains(&liggghts);
   const coupling::CoupledSettings s = settings();
   const lbm::Index3 cells = lbm::whole_cells(grains.box_size(), *s.units.spacing, "example");
-  coupling::CoupledSimulation simulation(
-      s, grains.decomposition(grains.box_low(), *s.units.spacing, cells), grains.box_low(), grains);
+  coupling::CoupledSimulation simulation(s, grains.decomposition(grains.box_low(), *s.units.spacing, cells),
+                                         grains.box_low(), grains);
   lbm::FieldOutputSettings fields;
   fields.path = "settling.h5";
   lbm::FieldOutput output(fields, simulation.units());

@@ -69,6 +69,9 @@ class CoupledSimulation {
   void set_pressure_gradient(const Vec3& si);
 
  private:
+  void place_spheres();
+  void step_fluid(bool loads_wanted);
+  void hand_loads_over();
   void read_spheres(const GrainArrays& grains);
   bool survey_due(const GrainArrays& grains) const;
   void survey(const GrainArrays& grains);

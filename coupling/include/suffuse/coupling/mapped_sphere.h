@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 namespace suffuse::coupling {
 
 /// How the part of a cell that a sphere covers is computed.
@@ -33,7 +31,8 @@ struct MappedSphere {
   LatticeSphere sphere;
   int x_start = 0, packs = 0;  ///< no packs: none of this rank's cells
   int y_begin = 0, y_end = 0, z_begin = 0, z_end = 0;
-  std::size_t first_entry = 0;  ///< strengths of its cells, eight a pack, x fastest
+  double reach = 0;  ///< beyond this distance from the centre no cell's centre is that of a covered cell
+  float linear_offset = 0;  ///< of FractionMethod::linear, see linear_offset()
 };
 
 }  // namespace suffuse::coupling
