@@ -20,14 +20,24 @@ struct Slice {
 
 [[gnu::always_inline]] inline Slice slice_of(const MappedSphere& m, const SliceList& list,
                                              const CellArrays& arrays) {
-  Slice slice{0, 0, list.z + arrays.lo[2] + 0.5 - m.sphere.position[2]};
+  Slice slice{0, 0, list.z + arrays.lo[2] + 0.5 - m.position[2]};
   const double left = m.reach * m.reach - slice.dz * slice.dz;
   if (!(left > 0)) return slice;
-  const double half = __builtin_sqrt(left), middle = m.sphere.position[1] - 0.5 - arrays.lo[1];
+  const double half = __builtin_sqrt(left), middle = m.position[1] - 0.5 - arrays.lo[1];
   const double first = __builtin_ceil(middle - half), last = __builtin_floor(middle + half);
   slice.begin = first > list.begin_y ? static_cast<int>(first) : list.begin_y;
   slice.end = last + 1 < list.end_y ? static_cast<int>(last) + 1 : list.end_y;
   return slice;
+}
+
+/// The lists' spheres lie apart in memory: what slice i + 4 needs is fetched while slice i is worked on.
+template <class Record>
+[[gnu::always_inline]] inline void fetch_record(const Record* records, const SliceList& list, int i) {
+  constexpr int ahead = 4, line = 64;
+  if (i + ahead >= list.count) return;
+  const char* record = reinterpret_cast<const char*>(records + list.numbers[i + ahead]);
+  for (unsigned at = 0; at < sizeof(Record); at += line) __builtin_prefetch(record + at, 1);
+  __builtin_prefetch(record + sizeof(Record) - 1, 1);
 }
 
 enum class Target { cells, entries_only };
@@ -37,16 +47,13 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
 [[gnu::always_inline]] inline float* map_slice(const MappedSphere& m, const SliceList& list,
                                                const FractionRule& rule, const CellArrays& arrays,
                                                float* entries) {
-  const LatticeSphere& s = m.sphere;
   const Slice slice = slice_of(m, list, arrays);
-  const Sphere sphere{static_cast<float>(s.radius), m.linear_offset, rule.subcells};
-  const float first_x = static_cast<float>(m.x_start + arrays.lo[0] + 0.5 - s.position[0]);
-  const float dz = static_cast<float>(slice.dz), coefficient = static_cast<float>(s.coefficient);
-  const float wx = static_cast<float>(s.angular_velocity[0]), wy = static_cast<float>(s.angular_velocity[1]),
-              wz = static_cast<float>(s.angular_velocity[2]);
-  const float ux = static_cast<float>(s.velocity[0]) + wy * dz,
-              uy = static_cast<float>(s.velocity[1]) - wx * dz, uz = static_cast<float>(s.velocity[2]);
-  const double lo_y = arrays.lo[1] + 0.5 - s.position[1];
+  const Sphere sphere{m.radius, m.linear_offset, rule.subcells};
+  const float first_x = static_cast<float>(m.x_start + arrays.lo[0] + 0.5 - m.position[0]);
+  const float dz = static_cast<float>(slice.dz), coefficient = m.coefficient;
+  const float wx = m.angular_velocity[0], wy = m.angular_velocity[1], wz = m.angular_velocity[2];
+  const float ux = m.velocity[0] + wy * dz, uy = m.velocity[1] - wx * dz, uz = m.velocity[2];
+  const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
   for (int pack = 0; pack < m.packs; ++pack) {
     const int x = m.x_start + kLanes * pack;
     const Floats dx = first_x + static_cast<float>(kLanes * pack) + kLaneNumbers;
@@ -78,8 +85,9 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
 void map_all(const SliceList& list, const FractionRule& rule, const CellArrays& given, float* entries) {
   const CellArrays arrays = given;  // a copy of our own: stores cannot change it
   for (int i = 0; i < list.count; ++i) {
+    fetch_record(list.spheres, list, i);
     const MappedSphere& m = list.spheres[list.numbers[i]];
-    if (kMethod == FractionMethod::linear && m.sphere.radius < kLeastLinearRadius)
+    if (kMethod == FractionMethod::linear && m.radius < kLeastLinearRadius)
       entries = map_slice<FractionMethod::exact, kOwn, kTarget>(m, list, rule, arrays, entries);
     else
       entries = map_slice<kMethod, kOwn, kTarget>(m, list, rule, arrays, entries);
@@ -105,13 +113,13 @@ void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& a
 /// The share of each cell's exchange that belongs to the sphere: exactly 1 where it is alone.
 [[gnu::always_inline]] inline Doubles shares(const Floats& own, const Floats& all) {
   const Floats divisor = all > 0.f ? all : Floats{} + 1.f;
-  return __builtin_convertvector(own, Doubles) / __builtin_convertvector(divisor, Doubles);
+  return widened(own) / widened(divisor);
 }
 
 template <class T>
 [[gnu::always_inline]] inline Doubles load_exchange(const T* from) {
   if constexpr (sizeof(T) == sizeof(float))
-    return __builtin_convertvector(load(from), Doubles);
+    return widened(load(from));
   else
     return *reinterpret_cast<const UnalignedDoubles*>(from);
 }
@@ -130,8 +138,8 @@ template <class T>
                                                      const CellArrays& arrays, const T* const* exchange,
                                                      const float* entries, LatticeLoad& load_sum) {
   const Slice slice = slice_of(m, list, arrays);
-  const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.sphere.position[0];
-  const double lo_y = arrays.lo[1] + 0.5 - m.sphere.position[1];
+  const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
+  const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
   Doubles hx{}, hy{}, hz{}, y_hx{}, y_hz{}, x_hy{}, x_hz{};
   for (int pack = 0; pack < m.packs; ++pack) {
     const Doubles dx = (first_x + kLanes * pack) + __builtin_convertvector(kLaneNumbers, Doubles);
@@ -166,6 +174,8 @@ void sum_all(const SliceList& list, const CellArrays& given, const T* const* exc
   const CellArrays arrays = given;
   const T* const from[3] = {exchange[0], exchange[1], exchange[2]};
   for (int i = 0; i < list.count; ++i) {
+    fetch_record(list.spheres, list, i);
+    fetch_record(loads, list, i);
     const int n = list.numbers[i];
     entries = sum_slice<T>(list.spheres[n], list, arrays, from, entries, loads[n]);
   }

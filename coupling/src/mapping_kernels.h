@@ -7,7 +7,7 @@
 namespace suffuse::coupling {
 
 /// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
-inline constexpr double kLeastLinearRadius = 1;
+inline constexpr float kLeastLinearRadius = 1;
 
 /// How fractions are written.
 struct FractionRule {

@@ -77,9 +77,16 @@ SolidMapping::SolidMapping(const SolidSettings& settings, lbm::InstructionSet in
       dirty_(static_cast<std::size_t>(local_box.extent(2)), 0) {}
 
 void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) const {
-  if (settings_.fraction == FractionMethod::linear && sphere.radius != mapped.sphere.radius &&
-      sphere.radius >= kLeastLinearRadius)
+  const float radius = static_cast<float>(sphere.radius);
+  if (settings_.fraction == FractionMethod::linear && radius != mapped.radius && radius >= kLeastLinearRadius)
     mapped.linear_offset = linear_offset(sphere.radius);
+  mapped.radius = radius;
+  mapped.coefficient = static_cast<float>(sphere.coefficient);
+  for (int a = 0; a < 3; ++a) {
+    mapped.position[a] = sphere.position[a];
+    mapped.velocity[a] = static_cast<float>(sphere.velocity[a]);
+    mapped.angular_velocity[a] = static_cast<float>(sphere.angular_velocity[a]);
+  }
   mapped.reach = sphere.radius + reach_beyond_radius(settings_.fraction, sphere.radius);
   int begin[3], end[3];
   bool outside = false;
@@ -96,7 +103,6 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
     end[a] = static_cast<int>(std::clamp(last + 1, 0., static_cast<double>(box_.extent(a))));
     outside |= begin[a] >= end[a];
   }
-  mapped.sphere = sphere;
   mapped.packs = outside ? 0 : (end[0] - begin[0] + 7) / 8;
   mapped.x_start = std::max(0, std::min(begin[0], box_.extent(0) - 8 * mapped.packs));
   mapped.y_begin = begin[1];
@@ -105,10 +111,24 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
   mapped.z_end = outside ? begin[2] : end[2];
 }
 
+/// To the last digit: the quick answer for grains at rest.
+bool SolidMapping::nothing_changed(const std::vector<LatticeSphere>& spheres) const {
+  if (spheres.size() != placed_.size()) return false;
+  bool same = true;
+  for (std::size_t n = 0; n < spheres.size() && same; ++n) {
+    const LatticeSphere &now = spheres[n], &then = placed_[n];
+    for (int a = 0; a < 3; ++a)
+      same &= (now.position[a] == then.position[a]) & (now.velocity[a] == then.velocity[a]) &
+              (now.angular_velocity[a] == then.angular_velocity[a]);
+    same &= (now.radius == then.radius) & (now.coefficient == then.coefficient) & (now.id == then.id);
+  }
+  return same;
+}
+
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {
-  if (spheres.size() != mapped_.size()) return false;
+  if (spheres.size() != placed_.size()) return false;
   for (std::size_t n = 0; n < spheres.size(); ++n) {
-    const LatticeSphere& then = mapped_[n].sphere;
+    const LatticeSphere& then = placed_[n];
     if (spheres[n].id != then.id || spheres[n].radius != then.radius) return false;
     // The same grain's other image, several cells away, is another sphere.
     if (std::abs(spheres[n].position[0] - then.position[0]) > 4 ||
@@ -195,8 +215,10 @@ void SolidMapping::for_each_block(const Visit& visit) const {
 }
 
 std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
+  if (nothing_changed(spheres)) return 0;
   std::size_t count = 0;
   if (!same_list(spheres)) {
+    placed_ = spheres;
     for (const MappedSphere& m : mapped_) mark(m);
     mapped_.assign(spheres.size(), {});
     for (std::size_t n = 0; n < spheres.size(); ++n) {
@@ -208,7 +230,8 @@ std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
   }
   for (std::size_t n = 0; n < spheres.size(); ++n) {
     MappedSphere& m = mapped_[n];
-    if (!moved(spheres[n], m.sphere)) continue;
+    if (!moved(spheres[n], placed_[n])) continue;
+    placed_[n] = spheres[n];
     mark(m);
     set_place(spheres[n], m);
     mark(m);
@@ -281,8 +304,9 @@ double SolidMapping::overlap() const {
 }
 
 std::size_t SolidMapping::bytes() const {
-  return mapped_.capacity() * sizeof(MappedSphere) + loads_.capacity() * sizeof(LatticeLoad) +
-         entries_.capacity() * sizeof(float) + (slices_.capacity() + first_slice_.capacity()) * sizeof(int);
+  return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
+         loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
+         (slices_.capacity() + first_slice_.capacity()) * sizeof(int);
 }
 
 }  // namespace suffuse::coupling

@@ -23,6 +23,13 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 [[gnu::always_inline]] inline void store(float* to, const Floats& value) {
   *reinterpret_cast<UnalignedFloats*>(to) = value;
 }
+[[gnu::always_inline]] inline Doubles widened(const Floats& v) {
+#ifdef __AVX512F__
+  return _mm512_maskz_cvtps_pd(static_cast<__mmask8>(-1), v);
+#else
+  return __builtin_convertvector(v, Doubles);
+#endif
+}
 [[gnu::always_inline]] inline Floats square_root(Floats v) {
 #ifdef __AVX__
   return _mm256_sqrt_ps(v);
@@ -32,16 +39,24 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 #endif
 }
 [[gnu::always_inline]] inline Floats lesser(const Floats& a, const Floats& b) {
+#ifdef __AVX__
+  return _mm256_min_ps(a, b);  // as below, in one instruction
+#else
   return a < b ? a : b;
+#endif
 }
 [[gnu::always_inline]] inline Floats greater(const Floats& a, const Floats& b) {
+#ifdef __AVX__
+  return _mm256_max_ps(a, b);
+#else
   return a > b ? a : b;
+#endif
 }
 [[gnu::always_inline]] inline Floats magnitude(const Floats& v) {
   return greater(v, -v);
 }
 [[gnu::always_inline]] inline Floats positive_cubed(const Floats& v) {
-  const Floats p = v > 0.f ? v : Floats{};
+  const Floats p = greater(v, Floats{});
   return p * p * p;
 }
 /// Is any lane not zero?
@@ -85,7 +100,8 @@ struct Sphere {
                nz = greater(magnitude(z) * inverse, Floats{} + least);
   const Floats sum = nx + ny + nz, product = nx * ny * nz;
   // Mean of t^2 over the cut through the middle: 1/6 for a face, 5/24 for the hexagon across a diagonal.
-  const Floats curvature = (1.f / 12 + (27.f / 48) * product * product) / radius;
+  const float inverse_radius = 1 / radius;
+  const Floats curvature = (inverse_radius / 12) + ((27.f / 48) * inverse_radius) * (product * product);
   const Floats offset =
       0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
   const Floats whole = offset > 0.5f * sum ? Floats{} + 1.f : Floats{};

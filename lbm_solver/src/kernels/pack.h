@@ -65,6 +65,15 @@ template <class T>
   *reinterpret_cast<typename PackTypes<T>::Unaligned*>(to) = value;
 }
 
+/// The first `lanes` only; the others keep what they hold. They are read and written back, so nothing else
+/// may write them meanwhile.
+template <class T>
+[[gnu::always_inline]] inline void store_first(T* to, const Pack<T>& value, int lanes) {
+  Pack<T> number;
+  for (int lane = 0; lane < kPackWidth<T>; ++lane) number[lane] = static_cast<T>(lane);
+  store<T>(to, number < static_cast<T>(lanes) ? value : load<T>(to));
+}
+
 template <class T>
 [[gnu::always_inline]] inline Pack<T> broadcast(T value) {
   return Pack<T>{} + value;

@@ -59,6 +59,7 @@ class SolidMapping {
 
  private:
   void set_place(const LatticeSphere& sphere, MappedSphere& mapped) const;
+  bool nothing_changed(const std::vector<LatticeSphere>& spheres) const;
   bool same_list(const std::vector<LatticeSphere>& spheres) const;
   bool moved(const LatticeSphere& now, const LatticeSphere& then) const;
   void mark(const MappedSphere& mapped);
@@ -74,6 +75,7 @@ class SolidMapping {
   lbm::PartialSolidArrays arrays_;
   lbm::CellBox box_;
   int rows_per_block_, blocks_per_plane_;
+  std::vector<LatticeSphere> placed_;  ///< as they were when they were placed last
   std::vector<MappedSphere> mapped_;
   std::vector<char> dirty_;  ///< planes whose cells wait to be written
   bool stale_ = false;
