@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
               collision = "trt", law;
   DragRun run;
   bool header = true;
+  double speed = 0;
   app.add_option("--packing", packings, "comma-separated, see the top of this program's source");
   app.add_option("--diameter", diameters, "Sauter, in cells");
   app.add_option("--coefficient", coefficients, "numbers or auto");
@@ -62,6 +63,7 @@ int main(int argc, char** argv) {
   app.add_option("--law", law, "constant,single,crowded,narrow of the automatic coefficient");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
   app.add_flag("--through", run.through, "flow along z instead of x");
+  app.add_option("--speed", speed, "moves packing and fluid along x, cells a step: another set of columns");
   app.add_flag("--single", run.single, "single precision");
   app.add_flag("--header,!--no-header", header, "first row with names");
   CLI11_PARSE(app, argc, argv);
@@ -77,7 +79,11 @@ int main(int argc, char** argv) {
     run.law = CoefficientLaw{terms.at(0), terms.at(1), terms.at(2), terms.at(3)};
   }
   if (collision == "bgk") run.collision = lbm::CollisionOperator::bgk;
-  if (header)
+  if (header && speed > 0)
+    std::printf(
+        "packing,diameter_cells,relaxation_time,operator,weighting,collision,fraction,coefficient,speed,"
+        "stable,held_K,moving_K,force_noise\n");
+  else if (header)
     std::printf(
         "packing,phi,diameter_cells,box_cells,relaxation_time,operator,weighting,fraction,offset,"
         "coefficient,crowding,drag_K,steps\n");
@@ -90,6 +96,15 @@ int main(int argc, char** argv) {
             run.relaxation_time = tau;
             run.offset = offset;
             run.coefficient = k;
+            if (speed > 0) {
+              const MovingResult m = moving_drag_of(packing, diameter, run, speed, 0.002);
+              std::printf("%s,%g,%g,%s,%s,%s,%s,%s,%g,%d,%.5f,%.5f,%.4f\n", name.c_str(), diameter, tau,
+                          solid_operator.c_str(), weighting.c_str(), collision.c_str(), fraction.c_str(),
+                          k > 0 ? std::to_string(k).c_str() : "auto", speed, m.stable ? 1 : 0, m.held, m.drag,
+                          m.noise);
+              std::fflush(stdout);
+              continue;
+            }
             const DragResult r = drag_of(packing, diameter, run);
             std::printf("%s,%.5f,%.4f,%d,%g,%s,%s,%s,%g,%s,%.4f,%.5f,%ld\n", name.c_str(), r.phi, r.diameter,
                         r.cells, tau, solid_operator.c_str(), weighting.c_str(), fraction.c_str(), offset,

@@ -90,6 +90,7 @@ std::vector<Scene> scenes() {
   const auto as_it_is = [](Scene&) {};
   for (const Precision precision : {Precision::double_precision, Precision::float_precision}) {
     for (const int size : {64, 128, 256}) add("trt", size, precision, as_it_is);
+    add("trt_odd", 125, precision, as_it_is);  // rows that end within a register
     add("trt_periodic", 128, precision, [](Scene& s) { s.settings.faces = FaceConditions{}; });
     add("trt_force", 128, precision, [](Scene& s) { s.force = Vec3(0, 0, 1e-6); });
     add("trt_incompressible", 128, precision, [](Scene& s) { s.settings.collision.incompressible = true; });

@@ -17,6 +17,7 @@
 #include "region.h"
 #include "region_block.h"
 #include "register_styles.h"
+#include "styles/fix_lubrication.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/whole_cells.h"
@@ -25,6 +26,8 @@
 namespace suffuse::coupling {
 
 namespace {
+
+constexpr const char* kLubricationFix = "suffuse_lubrication";
 
 using Instances = std::map<LAMMPS_NS::LAMMPS*, std::unique_ptr<LbmCommand>>;
 Instances& instances() {
@@ -104,6 +107,7 @@ void LbmCommand::line(int narg, char** arg) {
   } else if (word == "clear") {
     simulation_.reset();
     port_.reset();
+    if (lmp_->modify->find_fix(kLubricationFix) >= 0) lmp_->modify->delete_fix(kLubricationFix);
     settings_ = {};
     effects_.clear();
     output_ = {};
@@ -202,10 +206,37 @@ void LbmCommand::build() {
   const lbm::Decomposition parts = decomposition(low);
   coupled.substeps = choose_substeps();
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
+  if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
   if (!state_to_read_.empty()) {
     lbm::load_state(simulation_->fluid(), state_to_read_);
     continued_at_ = simulation_->time_si();
   }
+}
+
+/// Films between grains as LIGGGHTS's business (docs/reference/fix_lubrication.md), unless the script has a
+/// fix of its own. The lattice resolves what is wider than two thirds of a cell; films end at the grains'
+/// roughness, a thousandth of the smallest radius.
+void LbmCommand::add_lubrication(const CoupledSimulation& simulation) {
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (std::string(lmp_->modify->fix[i]->style) == "lubrication") return;
+  const lbm::Units& units = simulation.units();
+  lubrication::Film film;
+  film.viscosity = units.density() * units.viscosity_si();
+  film.outer = 2. / 3 * units.spacing();
+  film.inner = 1e-3 * port_->summary().smallest_radius;
+  const int every = std::max(1, simulation.substeps() / 2);
+  std::vector<LAMMPS_NS::FixLubrication::Plane> walls;
+  const Vec3 size = units.spacing() * Vec3(simulation.fluid().decomposition().cells()[0],
+                                           simulation.fluid().decomposition().cells()[1],
+                                           simulation.fluid().decomposition().cells()[2]);
+  for (int f = 0; f < lbm::kFaces; ++f)
+    if (simulation.fluid().settings().faces[static_cast<std::size_t>(f)].kind == lbm::FaceKind::no_slip)
+      walls.push_back({f / 2, simulation.origin()[f / 2] + (f % 2 == 1 ? size[f / 2] : 0)});
+  std::vector<std::string> words =
+      LAMMPS_NS::FixLubrication::words(kLubricationFix, "all", film, every, walls);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  lmp_->modify->add_fix(static_cast<int>(arguments.size()), arguments.data());
 }
 
 /// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many

@@ -37,6 +37,7 @@ class LbmCommand {
   CoupledSettings resolved_settings(std::vector<EffectChoice>& effects);
   lbm::Decomposition decomposition(Vec3& low);
   void build();
+  void add_lubrication(const CoupledSimulation& simulation);
   int choose_substeps();
 
   LAMMPS_NS::LAMMPS* lmp_;

@@ -29,7 +29,12 @@ using LAMMPS_NS::bigint;
 using LAMMPS_NS::FixHydrodynamicForce;
 using LAMMPS_NS::LAMMPS;
 
-static_assert(FixHydrodynamicForce::kHistoryValues == kHistoryLength);
+static_assert(FixHydrodynamicForce::kHistoryValues == kHistoryLength &&
+              FixHydrodynamicForce::kAcceleration == history::acceleration &&
+              FixHydrodynamicForce::kAngularAcceleration == history::angular_acceleration &&
+              FixHydrodynamicForce::kVirtualMass == history::virtual_mass &&
+              FixHydrodynamicForce::kVirtualMoment == history::virtual_moment &&
+              FixHydrodynamicForce::kCoefficient == history::coefficient);
 
 namespace {
 

@@ -187,27 +187,31 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
   }
 }
 
-/// Exchange of each sphere's cells on all ranks, summed at its owner, in SI.
+/// Exchange and lead of each sphere's cells on all ranks, summed at its owner, in SI.
 void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
-  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], newton_metre = newton * units_.spacing();
-  force_.assign(3 * static_cast<std::size_t>(grains.total), 0);
-  torque_.assign(force_.size(), 0);
+  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], metre = units_.spacing(),
+               second = units_.time_step();
+  for (std::vector<double>* values : {&force_, &torque_, &lead_, &spin_lead_})
+    values->assign(3 * static_cast<std::size_t>(grains.total), 0);
   for (std::size_t n = 0; n < mapping_.loads().size(); ++n) {
     const LatticeLoad& load = mapping_.loads()[n];
     for (std::size_t a = 0; a < 3; ++a) {
       force_[3 * n + a] = load.force[a] * newton;
-      torque_[3 * n + a] = load.torque[a] * newton_metre;
+      torque_[3 * n + a] = load.torque[a] * newton * metre;
+      lead_[3 * n + a] = load.lead[a] * newton * second;
+      spin_lead_[3 * n + a] = load.spin_lead[a] * newton * metre * second;
     }
   }
   grains_.sum_over_copies(force_, torque_);
+  grains_.sum_over_copies(lead_, spin_lead_);
 }
 
 void CoupledSimulation::hand_over(const GrainArrays& grains) {
   LoadRule rule;
   rule.fluid_density = units_.density();
   rule.time_step = units_.time_step();
+  rule.spacing = units_.spacing();
   if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
-  rule.inner_depth = kInnerDepth * units_.spacing();
   rule.average = settings_.average_force;
   rule.rotation = settings_.effects.rotation != Switch::off;
   const VirtualMassRule virtual_rule{settings_.virtual_mass, units_.density(),
@@ -215,6 +219,7 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
     const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};
+    const Lead lead{vector_at(lead_.data(), n), vector_at(spin_lead_.data(), n)};
     const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
                          vector_at(grains.angular_velocity, n)};
     double* h = memory.history + kHistoryLength * n;
@@ -223,34 +228,28 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const GrainHistory before{h[history::known] != 0,
                               past(history::velocity),
                               past(history::angular_velocity),
-                              {past(history::exchange_force), past(history::exchange_torque)},
-                              {past(history::inner_velocity), past(history::inner_spin),
-                               past(history::outer_velocity), past(history::outer_spin)}};
-    const auto rate = [&](double fraction) {
-      return lbm::following_rate(settings_.solids.cells, fraction,
-                                 spheres_[static_cast<std::size_t>(n)].coefficient, units_.relaxation_time());
-    };
-    rule.inner_rate = rate(1);
-    rule.outer_rate = rate(0.5);
-    const HeldFluid held = held_fluid(now, before, rule);
-    const Load load = hydrodynamic_load(exchange, now, before, rule);
+                              {past(history::surface_force), past(history::surface_torque)},
+                              {past(history::lead), past(history::spin_lead)}};
+    const Load surface = surface_load(exchange, lead, now, before, rule);
+    const Load load = hydrodynamic_load(surface, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
     if (before.known) {
-      keep(history::acceleration, (now.velocity - before.velocity) / rule.time_step);
-      keep(history::angular_acceleration, (now.angular_velocity - before.angular_velocity) / rule.time_step);
+      const auto follow = [&](int place, const Vec3& change) {
+        keep(place, past(place) + kPredictionRate * (change / rule.time_step - past(place)));
+      };
+      follow(history::acceleration, now.velocity - before.velocity);
+      follow(history::angular_acceleration, now.angular_velocity - before.angular_velocity);
     }
     const VirtualInertia added = virtual_inertia(virtual_rule, now.radius, grains.mass[n]);
     h[history::virtual_mass] = added.mass;
     h[history::virtual_moment] = added.moment;
     keep(history::velocity, now.velocity);
     keep(history::angular_velocity, now.angular_velocity);
-    keep(history::exchange_force, exchange.force);
-    keep(history::exchange_torque, exchange.torque);
-    keep(history::inner_velocity, held.inner_velocity);
-    keep(history::inner_spin, held.inner_spin);
-    keep(history::outer_velocity, held.outer_velocity);
-    keep(history::outer_spin, held.outer_spin);
+    keep(history::surface_force, surface.force);
+    keep(history::surface_torque, surface.torque);
+    keep(history::lead, lead.momentum);
+    keep(history::spin_lead, lead.spin);
     h[history::known] = 1;
   }
   loads_are_current_ = true;
@@ -281,7 +280,7 @@ void CoupledSimulation::refresh_loads() {
   if (any == 0) return;
   {
     const Stopwatch watch(times_.exchange);
-    mapping_.sum();
+    mapping_.sum(units_.relaxation_time());
   }
   hand_loads_over();
 }
@@ -302,6 +301,7 @@ void CoupledSimulation::step_fluid(bool loads_wanted) {
     if (loads_wanted) mapping_.begin_loads();
     fluid_.step(visitor);
     mapping_.finish_writing();
+    if (loads_wanted) mapping_.finish_loads(units_.relaxation_time());
   } else {
     fluid_.step();
   }

@@ -132,6 +132,29 @@ template <class T>
   return two[0] + two[1];
 }
 
+/// Sum of vectors h that act at cells of a slice, and of their moments about the sphere's centre.
+struct Moments {
+  Doubles hx{}, hy{}, hz{}, y_hx{}, y_hz{}, x_hy{}, x_hz{};
+
+  [[gnu::always_inline]] void add(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& dx,
+                                  double dy) {
+    hx += x;
+    hy += y;
+    hz += z;
+    y_hx += dy * x;
+    y_hz += dy * z;
+    x_hy += dx * y;
+    x_hz += dx * z;
+  }
+  [[gnu::always_inline]] void add_to(double* force, double* torque, double dz) const {
+    const double sum[3] = {sum_of(hx), sum_of(hy), sum_of(hz)};
+    for (int a = 0; a < 3; ++a) force[a] += sum[a];
+    torque[0] += sum_of(y_hz) - dz * sum[1];
+    torque[1] += dz * sum[0] - sum_of(x_hz);
+    torque[2] += sum_of(x_hy - y_hx);
+  }
+};
+
 /// Returns the end of the slice's entries.
 template <class T>
 [[gnu::always_inline]] inline const float* sum_slice(const MappedSphere& m, const SliceList& list,
@@ -140,31 +163,24 @@ template <class T>
   const Slice slice = slice_of(m, list, arrays);
   const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
   const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
-  Doubles hx{}, hy{}, hz{}, y_hx{}, y_hz{}, x_hy{}, x_hz{};
+  Moments all, open;
   for (int pack = 0; pack < m.packs; ++pack) {
-    const Doubles dx = (first_x + kLanes * pack) + __builtin_convertvector(kLaneNumbers, Doubles);
+    const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
     const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
     for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       const double dy = y + lo_y;
       const Doubles share = shares(load(entries), load(arrays.strength + cell));
-      const Doubles x_part = share * load_exchange(exchange[0] + cell),
-                    y_part = share * load_exchange(exchange[1] + cell),
-                    z_part = share * load_exchange(exchange[2] + cell);
-      hx += x_part;
-      hy += y_part;
-      hz += z_part;
-      y_hx += dy * x_part;
-      y_hz += dy * z_part;
-      x_hy += dx * y_part;
-      x_hz += dx * z_part;
+      const Doubles hx = share * load_exchange(exchange[0] + cell),
+                    hy = share * load_exchange(exchange[1] + cell),
+                    hz = share * load_exchange(exchange[2] + cell);
+      all.add(hx, hy, hz, dx, dy);
+      const Doubles clear = widened(1.f - lesser(load(arrays.fraction + cell), Floats{} + 1.f));
+      open.add(clear * hx, clear * hy, clear * hz, dx, dy);
     }
   }
-  const double force[3] = {sum_of(hx), sum_of(hy), sum_of(hz)};
-  for (int a = 0; a < 3; ++a) load_sum.force[a] += force[a];
-  load_sum.torque[0] += sum_of(y_hz) - slice.dz * force[1];
-  load_sum.torque[1] += slice.dz * force[0] - sum_of(x_hz);
-  load_sum.torque[2] += sum_of(x_hy - y_hx);
+  all.add_to(load_sum.force, load_sum.torque, slice.dz);
+  open.add_to(load_sum.lead, load_sum.spin_lead, slice.dz);
   return entries;
 }
 

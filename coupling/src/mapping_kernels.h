@@ -39,7 +39,8 @@ struct SliceList {
 ///
 /// map_slices adds the slices to the cells, one after the other.
 /// strengths_of leaves the cells alone; both store the slices' own strengths in `entries`, eight a pack.
-/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries.
+/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries; to `lead`
+/// and `spin_lead` the same times the part of each cell that is open.
 #define SUFFUSE_DECLARE_MAPPING(instruction_set)                                                             \
   namespace instruction_set {                                                                                \
   void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,                 \

@@ -281,9 +281,23 @@ void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArray
   kernels.sum_loads(list, arrays, entries_.data(), loads_.data());
 }
 
-void SolidMapping::sum() {
+/// From sums of exchange and of exchange times the open part of cells: the covered part leads by
+/// whole - slope (1 - eps) of the exchange.
+void SolidMapping::finish_loads(double relaxation_time) {
+  for (std::size_t n = 0; n < loads_.size(); ++n) {
+    const lbm::HeldTerms held = lbm::held_terms(settings_.cells, placed_[n].coefficient, relaxation_time);
+    LatticeLoad& load = loads_[n];
+    for (int a = 0; a < 3; ++a) {
+      load.lead[a] = held.whole * load.force[a] - held.slope * load.lead[a];
+      load.spin_lead[a] = held.whole * load.torque[a] - held.slope * load.spin_lead[a];
+    }
+  }
+}
+
+void SolidMapping::sum(double relaxation_time) {
   begin_loads();
   for_each_block([&](const lbm::RowBlock& block) { sum_rows(block, arrays_.exchange); });
+  finish_loads(relaxation_time);
 }
 
 Vec3 SolidMapping::solid_flux(const lbm::Index3& cell) const {

@@ -10,12 +10,14 @@ namespace suffuse::coupling {
 namespace {
 /// Share of the mass from which on the response is taken over to the grain's side.
 constexpr double kSafeShare = 0.4;
-/// Virtual mass over the estimated response: a little too much only makes accelerations lag by a step or two.
+/// Virtual mass over the estimated response.
 constexpr double kMargin = 1.5;
 }  // namespace
 
 double response_coefficient(double radius, double viscosity) {
-  return 0.5 + 9 * std::sqrt(viscosity / std::numbers::pi) / radius + 4.5 * viscosity / (radius * radius);
+  const double larger = 1 + 0.5 / radius;
+  return 0.5 * larger * larger * larger + 9 * std::sqrt(viscosity / std::numbers::pi) / radius +
+         4.5 * viscosity / (radius * radius);
 }
 
 double rotational_response_coefficient(double radius, double viscosity) {

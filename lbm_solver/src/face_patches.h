@@ -14,7 +14,7 @@ struct FaceContext {
   bool incompressible = false;
 };
 
-/// /// What enters through the faces of the whole box that this rank holds, other than by streaming and
+/// What enters through the faces of the whole box that this rank holds, other than by streaming and
 /// mirrors. Edges and corners follow link_rule().
 ///
 /// Pressure faces (`extend`): the ghost cell beyond face cell y holds y's populations, shifted by the

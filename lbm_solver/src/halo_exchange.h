@@ -18,10 +18,9 @@ namespace suffuse::lbm {
 /// been filled before and go along too.
 ///
 /// Across x, a periodic end on this rank and a plane of symmetry touch one value of a cache line in each row:
-/// swept by themselves, a quarter of a float step (docs/performance.md). `apply_near_rows` does them in rows
-/// begin_y <= y < end_y of plane z as soon as the kernel has been there, while the lines are still in the
-/// cache; `fill` and `fold` do what is left: what no cell of the sub-box wrote. Both copy each value from the
-/// same place to the same place, once.
+/// swept by themselves they took a fifth of a step in float. `apply_near_rows` does them in rows begin_y <= y
+/// < end_y of plane z as soon as the kernel has been there, while the lines are still in the cache; `fill`
+/// and `fold` do what is left: what no cell of the sub-box wrote.
 template <class T>
 class HaloExchange {
  public:

@@ -59,15 +59,19 @@ double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell
   return strength * t / (1 - fraction + kLeastOpenShare * std::max(1., cell.fraction) + strength * t);
 }
 
-double following_rate(const PartialSolidSettings& settings, double fraction, double coefficient,
-                      double relaxation_time) {
-  PartialSolidSettings same = settings;
-  same.own_coefficients = false;
-  same.coefficient = coefficient;
-  const double weight = solid_weight(same, {fraction, fraction, Vec3::Zero()}, relaxation_time);
-  const bool overshoots =
+HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time) {
+  const double t = relaxation_time - 0.5;
+  double whole = 1, slope = 0;  // of eps/B
+  if (settings.weighting == SolidWeighting::noble_torczynski) {
+    slope = -1 / t;
+  } else if (settings.weighting == SolidWeighting::viscosity_independent) {
+    whole = 1 + kLeastOpenShare / (coefficient * t);
+    slope = 1 - 1 / (coefficient * t);
+  }
+  const bool twice =
       settings.solid_operator == SolidOperator::sc3 || settings.solid_operator == SolidOperator::force;
-  return overshoots ? 2 * weight : weight;
+  const double part = twice ? 0.5 : 1;
+  return {part * whole - 1, part * slope - 1};
 }
 
 }  // namespace suffuse::lbm

@@ -14,4 +14,5 @@
 #include "compute_strong_contacts.h"
 #include "fix_contact_sampler.h"
 #include "fix_hydrodynamic_force.h"
+#include "fix_lubrication.h"
 #include "fix_stress_servo.h"

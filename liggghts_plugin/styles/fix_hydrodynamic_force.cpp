@@ -17,9 +17,6 @@ using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 
 namespace {
-// Places in a grain's history, as in coupling's particle_port.h.
-constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20,
-              kCoefficient = 33;
 constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce::kHistoryValues;
 }  // namespace
 

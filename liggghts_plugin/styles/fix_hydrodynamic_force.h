@@ -23,7 +23,10 @@ namespace LAMMPS_NS {
 class FixHydrodynamicForce : public Fix {
  public:
   static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
-  static constexpr int kHistoryValues = 37;  ///< the coupling's memory of a grain (particle_port.h)
+  static constexpr int kHistoryValues = 31;  ///< the coupling's memory of a grain (particle_port.h)
+  /// Places in that memory which this fix reads.
+  static constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20,
+                       kCoefficient = 27;
 
   FixHydrodynamicForce(LAMMPS* lmp, int narg, char** arg);
   ~FixHydrodynamicForce() override;

@@ -2,10 +2,13 @@
 """input_scripts.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
 
 The scenes of input_scripts/ run to their ends on very small, very soft samples, leave what their READMEs say, and keep the
-stresses that they impose; the isotropic one goes on from its restart file.
+stresses that they impose; the isotropic one goes on from its restart file, and its final state is found by `suffuse-analyse reproduce`
+(the program $SUFFUSE_ANALYSE) with the numbers that the run had.
 """
 import csv
+import os
 import pathlib
+import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -22,6 +25,18 @@ def results(path):
 
 def near(values, name, expected, relative):
     expect(abs(values[name] / expected - 1) <= relative, f"{name} = {values[name]}, not within {100 * relative} % of {expected}")
+
+
+def check_reproduction(folder, values):
+    command = [os.environ["SUFFUSE_ANALYSE"], "reproduce", "table-4-1", folder, "--output", folder / "table.csv"]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60)
+    expect(done.returncode == 0 and b"1 of 63 rows" in done.stdout, done.stdout.decode())
+    with open(folder / "table.csv") as file:
+        rows = {row["quantity"]: row for row in csv.DictReader(file)}
+    # The dump's box has six digits: up to 5e-6 of each side, 1.5e-5 of the volume, and (1 - n)/n = 4 times that of the porosity.
+    for name, relative in (("porosity", 1e-4), ("coordination_number", 1e-9), ("alpha_pair_halves", 2e-5), ("alpha_contact_point", 2e-5), ("mean_stress", 3e-5)):
+        near(values, name, float(rows[name if name in rows else name + "_pa"]["measured"]), relative)
+    expect(rows["alpha_pair_halves"]["thesis"] == "1.789" and rows["porosity"]["state"] == "dense", f"another row: {rows}")
 
 
 def main():
@@ -41,6 +56,8 @@ def main():
         near(values, "mean_stress", 200e3, 0.005)
         expect(values["unbalanced_force_ratio"] < 1e-3, f"unbalanced: {values['unbalanced_force_ratio']}")
         expect(values["alpha_pair_halves"] > values["alpha_contact_point"] > 0, "alpha by pair halves is the larger for a gap-graded sample")
+
+        check_reproduction(folder / "new", values)
 
         run("01_isotropic_compression/in.isotropic_compression", folder / "continued", begin="restart",
             restart="../new/compression.50000.restart", **small)

@@ -37,6 +37,14 @@ Scaled fit(const Packing& packing, double diameter) {
   return best;
 }
 
+/// A packing on the lattice, and how it is run.
+struct Scene {
+  lbm::Index3 cells;
+  std::vector<PrescribedGrains::Grain> list;
+  double total = 0, phi = 0, diameter = 0, nu = 0;
+  CoupledSettings settings;
+};
+
 /// Mean x of the automatic coefficient over the grains.
 double mean_crowding(CoupledSettings settings, const lbm::Index3& cells, PrescribedGrains grains) {
   settings.solids.automatic_coefficient = true;
@@ -49,6 +57,54 @@ double mean_crowding(CoupledSettings settings, const lbm::Index3& cells, Prescri
   for (std::size_t n = 0; n < grains.list.size(); ++n)
     sum += (simulation.coefficient_of(n) - 1) * 2 * grains.list[n].radius;
   return sum / static_cast<double>(grains.list.size());
+}
+
+Scene make_scene(const Packing& packing, double diameter, const DragRun& run) {
+  const Scaled scaled = fit(packing, diameter);
+  const int layer = static_cast<int>(std::lround(run.water * scaled.cells));
+  Scene scene;
+  scene.cells = {scaled.cells, scaled.cells, scaled.cells + 2 * layer};
+  const Vec3 shift(run.offset, 0.37 * run.offset, layer + 0.71 * run.offset);
+  double solid = 0, surface = 0;
+  for (int k = 0; k < scaled.repeats; ++k)
+    for (int j = 0; j < scaled.repeats; ++j)
+      for (int i = 0; i < scaled.repeats; ++i)
+        for (std::size_t n = 0; n < packing.radii.size(); ++n) {
+          PrescribedGrains::Grain grain;
+          grain.position = scaled.edge * (packing.centres[n] + Vec3(i, j, k)) + shift;
+          for (int a = 0; a < 3; ++a) {
+            const double edge = scene.cells[static_cast<std::size_t>(a)];
+            grain.position[a] -= edge * std::floor(grain.position[a] / edge);
+          }
+          grain.radius = scaled.edge * packing.radii[n];
+          solid += sphere_volume(grain.radius);
+          surface += 4 * std::numbers::pi * grain.radius * grain.radius;
+          scene.list.push_back(grain);
+        }
+  scene.total = static_cast<double>(scene.cells[0]) * scene.cells[1] * scene.cells[2];
+  scene.phi = solid / scene.total;
+  scene.diameter = 6 * solid / surface;
+  scene.nu = lbm::viscosity_of(run.relaxation_time);
+  CoupledSettings& settings = scene.settings;
+  settings.units.density = 1;
+  settings.units.viscosity = scene.nu;
+  settings.units.spacing = 1;
+  settings.units.time_step = 1;
+  settings.fluid.collision.collision_operator = run.collision;
+  settings.fluid.precision = run.single ? lbm::Precision::float_precision : lbm::Precision::double_precision;
+  settings.solids.cells.solid_operator = run.solid_operator;
+  settings.solids.cells.weighting = run.weighting;
+  settings.solids.automatic_coefficient = run.coefficient <= 0;
+  if (run.coefficient > 0) settings.solids.cells.coefficient = run.coefficient;
+  settings.solids.law = run.law;
+  settings.solids.fraction = run.fraction;
+  settings.substeps = 1;
+  return scene;
+}
+
+PrescribedGrains grains_of(const Scene& scene) {
+  return PrescribedGrains(scene.list, Vec3(scene.cells[0], scene.cells[1], scene.cells[2]),
+                          {true, true, true}, 1.);
 }
 
 }  // namespace
@@ -95,50 +151,17 @@ Packing make_packing(const std::string& text) {
 }
 
 DragResult drag_of(const Packing& packing, double diameter, const DragRun& run) {
-  const Scaled scaled = fit(packing, diameter);
-  const int layer = static_cast<int>(std::lround(run.water * scaled.cells));
-  const lbm::Index3 cells{scaled.cells, scaled.cells, scaled.cells + 2 * layer};
-  std::vector<PrescribedGrains::Grain> list;
-  const Vec3 shift(run.offset, 0.37 * run.offset, layer + 0.71 * run.offset);
-  for (int k = 0; k < scaled.repeats; ++k)
-    for (int j = 0; j < scaled.repeats; ++j)
-      for (int i = 0; i < scaled.repeats; ++i)
-        for (std::size_t n = 0; n < packing.radii.size(); ++n) {
-          PrescribedGrains::Grain grain;
-          grain.position = scaled.edge * (packing.centres[n] + Vec3(i, j, k)) + shift;
-          for (int a = 0; a < 3; ++a) {
-            const double edge = cells[static_cast<std::size_t>(a)];
-            grain.position[a] -= edge * std::floor(grain.position[a] / edge);
-          }
-          grain.radius = scaled.edge * packing.radii[n];
-          list.push_back(grain);
-        }
-  const double nu = lbm::viscosity_of(run.relaxation_time);
-  CoupledSettings settings;
-  settings.units.density = 1;
-  settings.units.viscosity = nu;
-  settings.units.spacing = 1;
-  settings.units.time_step = 1;
-  settings.fluid.collision.collision_operator = run.collision;
-  settings.fluid.precision = run.single ? lbm::Precision::float_precision : lbm::Precision::double_precision;
-  settings.solids.cells.solid_operator = run.solid_operator;
-  settings.solids.cells.weighting = run.weighting;
-  settings.solids.automatic_coefficient = run.coefficient <= 0;
-  if (run.coefficient > 0) settings.solids.cells.coefficient = run.coefficient;
-  settings.solids.law = run.law;
-  settings.solids.fraction = run.fraction;
-  settings.substeps = 1;
+  Scene scene = make_scene(packing, diameter, run);
   // So weak that U, about G d^2/nu at most, leaves Re and Ma far below what shows.
-  const double gradient = 1e-6 * nu * nu;
+  const double gradient = 1e-6 * scene.nu * scene.nu;
   const int along = run.through ? 2 : 0;
-  settings.pressure_gradient[along] = gradient;
-  PrescribedGrains grains(list, Vec3(cells[0], cells[1], cells[2]), {true, true, true}, 1.);
+  scene.settings.pressure_gradient[along] = gradient;
+  PrescribedGrains grains = grains_of(scene);
   DragResult result;
-  result.crowding = mean_crowding(settings, cells, grains);
-  CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, cells), Vec3::Zero(),
-                               grains);
+  result.crowding = mean_crowding(scene.settings, scene.cells, grains);
+  CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells),
+                               Vec3::Zero(), grains);
   simulation.map();
-  const double total = static_cast<double>(cells[0]) * cells[1] * cells[2];
   double before = 0, flux = 0;
   constexpr int interval = 100;
   int settled = 0;
@@ -146,19 +169,50 @@ DragResult drag_of(const Packing& packing, double diameter, const DragRun& run) 
     simulation.fluid().run(interval);
     before = flux;
     // The mean of a step's begin and end; once steady, what the gradient gives the grains take.
-    flux = simulation.fluid().momentum()[along] / total - 0.5 * gradient;
+    flux = simulation.fluid().momentum()[along] / scene.total - 0.5 * gradient;
     settled = std::abs(flux - before) < 2e-6 * std::abs(flux) ? settled + 1 : 0;
   } while (settled < 2 && simulation.fluid().steps() < 100000);
-  double solid = 0, surface = 0;
-  for (const auto& g : list) {
-    solid += sphere_volume(g.radius);
-    surface += 4 * std::numbers::pi * g.radius * g.radius;
-  }
-  result.phi = solid / total;
-  result.diameter = 6 * solid / surface;
-  result.drag = gradient * result.diameter * result.diameter / (18 * result.phi * nu * flux);
-  result.cells = cells[0];
+  result.phi = scene.phi;
+  result.diameter = scene.diameter;
+  result.drag = gradient * scene.diameter * scene.diameter / (18 * scene.phi * scene.nu * flux);
+  result.cells = scene.cells[0];
   result.steps = simulation.fluid().steps();
+  return result;
+}
+
+MovingResult moving_drag_of(const Packing& packing, double diameter, const DragRun& run, double speed,
+                            double flow) {
+  const DragResult held = drag_of(packing, diameter, run);
+  Scene scene = make_scene(packing, diameter, run);
+  const double gradient = 18 * scene.phi * held.drag * scene.nu * flow / (scene.diameter * scene.diameter);
+  scene.settings.pressure_gradient = Vec3(gradient, 0, 0);
+  for (auto& g : scene.list) g.velocity = Vec3(speed, 0, 0);
+  PrescribedGrains grains = grains_of(scene);
+  grains.mobile = true;
+  CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells),
+                               Vec3::Zero(), grains);
+  simulation.fluid().set_equilibrium([&](const lbm::Index3&) {
+    return lbm::FluidPoint{1, Vec3(speed + flow, 0, 0)};
+  });
+  MovingResult result;
+  result.held = held.drag;
+  // Until boundary layers have grown, then over whole crossings of a cell.
+  const double settling = scene.diameter * scene.diameter / scene.nu;
+  const int steps = static_cast<int>(settling) + 500, measured = 400;
+  const double share = gradient * scene.total / static_cast<double>(scene.list.size());
+  double flux = 0, squares = 0, mean = 0;
+  for (int n = 0; n < steps + measured; ++n) {
+    simulation.step();
+    if (n % 50 == 0 && !(simulation.fluid().extremes().largest_speed < 0.5)) return result;
+    if (n < steps) continue;
+    flux += (simulation.fluid().momentum()[0] / scene.total - 0.5 * gradient - speed) / measured;
+    const double force = grains.force_on(0)[0];
+    mean += force / measured;
+    squares += force * force / measured;
+  }
+  result.stable = true;
+  result.drag = gradient * scene.diameter * scene.diameter / (18 * scene.phi * scene.nu * flux);
+  result.noise = std::sqrt(std::max(0., squares - mean * mean)) / share;
   return result;
 }
 

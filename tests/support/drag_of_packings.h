@@ -51,4 +51,16 @@ struct DragResult {
 /// 6 pi mu a U with the Sauter radius and the superficial velocity: permeability/d^2 = 1/(18 phi K).
 DragResult drag_of(const Packing& packing, double diameter, const DragRun& run);
 
+struct MovingResult {
+  bool stable = false;  ///< false: speeds passed 0.5, or were not finite
+  double held = 0;      ///< K of the held packing
+  double drag = 0;      ///< K from the flow relative to the grains
+  double noise = 0;     ///< rms of one grain's force over its mean
+};
+
+/// The whole packing moved along x at `speed` (cells a step), fluid with it, with a superficial velocity
+/// relative to it of about `flow`.
+MovingResult moving_drag_of(const Packing& packing, double diameter, const DragRun& run, double speed,
+                            double flow);
+
 }  // namespace suffuse::coupling

@@ -14,21 +14,38 @@
 namespace suffuse::coupling {
 
 /// Spheres without a discrete-element code: held, moved at given velocities, or free to follow the fluid's
-/// load, gravity and nothing else. Every rank holds all of them; the lowest rank owns them. Images across
+/// load, gravity and nothing else. Every rank holds and owns all of them. Images across
 /// periodic faces are made.
 class PrescribedGrains final : public ParticlePort {
  public:
   struct Grain {
     Vec3 position, velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();
     double radius = 0, density = 2650;
+    int id = 0;  ///< 0: given when it comes in
   };
 
   PrescribedGrains(std::vector<Grain> grains, const Vec3& box, const std::array<bool, 3>& periodic,
-                   double step)
-      : box_(box), periodic_(periodic), step_(step), list(std::move(grains)) {
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+                   double step, MPI_Comm communicator = MPI_COMM_WORLD)
+      : box_(box), periodic_(periodic), step_(step), communicator_(communicator), list(std::move(grains)) {
     load_.assign(6 * list.size(), 0);
     history_.assign(kHistoryLength * list.size(), 0);
+    for (Grain& grain : list) grain.id = ++last_id_;
+  }
+
+  void insert(Grain grain) {
+    grain.id = ++last_id_;
+    list.push_back(grain);
+    load_.resize(6 * list.size(), 0);
+    history_.resize(kHistoryLength * list.size(), 0);
+  }
+  void erase(std::size_t n) {
+    const auto cut = [n](std::vector<double>& values, int each) {
+      const auto from = values.begin() + static_cast<std::ptrdiff_t>(n) * each;
+      values.erase(from, from + each);
+    };
+    cut(load_, 6);
+    cut(history_, kHistoryLength);
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
   GrainArrays grains() override {
@@ -75,7 +92,7 @@ class PrescribedGrains final : public ParticlePort {
       for (std::size_t n = 0; n < owner_.size(); ++n)
         for (std::size_t a = 0; a < 3; ++a) mine[3 * owner_[n] + a] += (*values)[3 * n + a];
       MPI_Allreduce(mine.data(), values->data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
-                    MPI_COMM_WORLD);
+                    communicator_);
     }
   }
 
@@ -122,7 +139,7 @@ class PrescribedGrains final : public ParticlePort {
     }
     radius_.push_back(g.radius);
     mass_.push_back(g.density * sphere_volume(g.radius));
-    id_.push_back(static_cast<int>(n) + 1);
+    id_.push_back(g.id);
     owner_.push_back(n);
     coefficient_.push_back(history_[kHistoryLength * n + history::coefficient]);
   }
@@ -130,7 +147,8 @@ class PrescribedGrains final : public ParticlePort {
   Vec3 box_;
   std::array<bool, 3> periodic_;
   double step_;
-  int rank_ = 0;
+  MPI_Comm communicator_;
+  int last_id_ = 0;
   std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;

@@ -7,6 +7,7 @@
 
 #include "prescribed_grains.h"
 #include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/virtual_mass.h"
 
 using namespace suffuse;
 using namespace suffuse::coupling;
@@ -29,9 +30,10 @@ double fluid_step(const CoupledSettings& settings) {
   return lbm::Units(settings.units).time_step();
 }
 
-/// Fluid and grains, without the fluid that the grains' cells hold and with the virtual mass as it moved
-/// last: conserved from the first step on, since (m + m_v) (v' - v) = F_exchange dt + m_f (U - U_before) +
-/// m_v (u - u_before).
+/// Fluid and grains, without the fluid that the grains' cells hold and with what the virtual mass keeps:
+/// conserved from the first step on, since
+/// m (v' - v) = (F_exchange + d/dt of the held momentum - m_v (a - a_before)) dt and the mean acceleration
+/// moves by kPredictionRate (a - a_before).
 Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grains) {
   const lbm::Units& units = simulation.units();
   const double cell = units.density() * std::pow(units.spacing(), 3);
@@ -42,12 +44,13 @@ Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grain
     const auto past = [&](int place) {
       return Vec3(Eigen::Map<const Vec3>(memory + kHistoryLength * n + place));
     };
-    HeldFluid held;
-    held.inner_velocity = past(history::inner_velocity);
-    held.outer_velocity = past(history::outer_velocity);
-    const MeanMotion fluid = mean_motion(held, inner_shares(g.radius, kInnerDepth * units.spacing()));
-    sum += sphere_volume(g.radius) * (g.density * g.velocity - units.density() * fluid.velocity);
-    sum += memory[kHistoryLength * n + history::virtual_mass] * (g.velocity - past(history::velocity));
+    const Vec3 held =
+        sphere_volume(g.radius) * units.density() * past(history::velocity) + past(history::lead);
+    sum += sphere_volume(g.radius) * g.density * g.velocity - held;
+    const Vec3 change = g.velocity - past(history::velocity),
+               before = units.time_step() * past(history::acceleration);
+    sum +=
+        memory[kHistoryLength * n + history::virtual_mass] * (before / kPredictionRate + (change - before));
   }
   return sum;
 }

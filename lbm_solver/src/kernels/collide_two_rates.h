@@ -38,7 +38,7 @@ struct PlacedPopulations {
     if (lanes == kPackWidth<T>)
       store<T>(place[opposite(i)] + x, value);
     else
-      store_first<T>(place[opposite(i)] + x, value, lanes);
+      store_lanes<T>(place[opposite(i)] + x, value, lanes);
   }
 };
 

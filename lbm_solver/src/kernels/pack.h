@@ -65,13 +65,26 @@ template <class T>
   *reinterpret_cast<typename PackTypes<T>::Unaligned*>(to) = value;
 }
 
-/// The first `lanes` only; the others keep what they hold. They are read and written back, so nothing else
-/// may write them meanwhile.
+/// The first `lanes` lanes only.
 template <class T>
-[[gnu::always_inline]] inline void store_first(T* to, const Pack<T>& value, int lanes) {
-  Pack<T> number;
-  for (int lane = 0; lane < kPackWidth<T>; ++lane) number[lane] = static_cast<T>(lane);
-  store<T>(to, number < static_cast<T>(lanes) ? value : load<T>(to));
+[[gnu::always_inline]] inline void store_lanes(T* to, const Pack<T>& value, int lanes) {
+#if defined(__AVX512F__)
+  const unsigned mask = (1u << lanes) - 1;
+  if constexpr (sizeof(T) == sizeof(double))
+    _mm512_mask_storeu_pd(to, static_cast<__mmask8>(mask), value);
+  else
+    _mm512_mask_storeu_ps(to, static_cast<__mmask16>(mask), value);
+#elif defined(__AVX2__)
+  if constexpr (sizeof(T) == sizeof(double)) {
+    const __m256i lane = _mm256_setr_epi64x(0, 1, 2, 3);
+    _mm256_maskstore_pd(to, _mm256_cmpgt_epi64(_mm256_set1_epi64x(lanes), lane), value);
+  } else {
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    _mm256_maskstore_ps(to, _mm256_cmpgt_epi32(_mm256_set1_epi32(lanes), lane), value);
+  }
+#else
+  for (int lane = 0; lane < lanes; ++lane) to[lane] = value[lane];
+#endif
 }
 
 template <class T>

@@ -57,7 +57,7 @@ template <class T>
     if (lanes == kPackWidth<T>)
       store<T>(call.exchange[a] + cells, exchange[a]);
     else
-      store_first<T>(call.exchange[a] + cells, exchange[a], lanes);
+      store_lanes<T>(call.exchange[a] + cells, exchange[a], lanes);
   }
 }
 

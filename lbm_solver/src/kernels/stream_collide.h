@@ -90,7 +90,7 @@ template <class T, class Operator, class Solid, bool kForced>
         if (lanes == width)
           store<T>(p[opposite(i)] + x, g.values[i]);
         else
-          store_first<T>(p[opposite(i)] + x, g.values[i], lanes);
+          store_lanes<T>(p[opposite(i)] + x, g.values[i], lanes);
       }
     }
   }

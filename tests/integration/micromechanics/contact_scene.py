@@ -64,6 +64,7 @@ class Suffuse:
         parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
         parser.add_argument("--suffuse", required=True)
         parser.add_argument("--mpirun", required=True)
+        parser.add_argument("--analyse", help="the program suffuse-analyse")
         self.options = parser.parse_args()
         self.folder = pathlib.Path(folder)
 
@@ -80,6 +81,11 @@ class Suffuse:
         if code != 0:
             sys.exit(f"{name} on {ranks} ranks ended with code {code}:\n{out[-2000:]}\n{err[-2000:]}")
         return out
+
+    def analyse(self, *words):
+        """Runs suffuse-analyse; returns exit code, standard output and standard error."""
+        done = subprocess.run([self.options.analyse, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240)
+        return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
     def prepare(self):
         self.must_run(1, PREPARE, "prepare")

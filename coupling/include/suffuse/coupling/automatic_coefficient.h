@@ -14,10 +14,10 @@ namespace suffuse::coupling {
 ///
 ///   k = constant + (single + crowded x)/D + narrow (x/D)^2,  x = D/(6 m),  at most kLargestCoefficient,
 ///
-/// where m is the hydraulic radius of the pores around the sphere, in cells: their volume over the surface
-/// of grains that they wet. Among equal spheres x is near phi/(1 - phi). Calibrated so that the permeability
-/// of arrays and random packings is right at 5 to 20 cells a diameter (docs/decisions/solid-operator.md);
-/// valid for D >= 2.
+/// where m is a hydraulic radius of the pores around the sphere, in cells: their volume (and 0.15 of the
+/// ball's in which they are sought) over the surface of grains that they wet. In dense packings of equal
+/// spheres x is about 0.75 phi/(1 - phi). Calibrated so that the permeability of arrays and random packings
+/// is right at 5 to 20 cells a diameter (docs/decisions/solid-operator.md); valid for D >= 2.
 struct CoefficientLaw {
   double constant = 0, single = 0, crowded = 0, narrow = 0;
 

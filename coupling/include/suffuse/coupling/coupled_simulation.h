@@ -93,7 +93,7 @@ class CoupledSimulation {
   long surveys_ = 0;
   bool loads_are_current_ = true;
   std::vector<LatticeSphere> spheres_;
-  std::vector<double> force_, torque_;
+  std::vector<double> force_, torque_, lead_, spin_lead_;
   CoupledTimes times_;
 };
 

@@ -7,20 +7,20 @@ namespace suffuse::coupling {
 
 /// Places in a grain's history: what the last fluid step saw and gave.
 namespace history {
-inline constexpr int velocity = 0, angular_velocity = 3;       ///< m/s, rad/s
-inline constexpr int exchange_force = 6, exchange_torque = 9;  ///< N, N m
-inline constexpr int known = 12;                               ///< 1 once there was such a step
-/// Over the fluid step before, m/s^2 and rad/s^2; and the virtual inertia that is to move with it on both
-/// sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever integrates applies these.
+inline constexpr int velocity = 0, angular_velocity = 3;     ///< m/s, rad/s
+inline constexpr int surface_force = 6, surface_torque = 9;  ///< N, N m
+inline constexpr int known = 12;                             ///< 1 once there was such a step
+/// Over the fluid steps before (their running mean), m/s^2 and rad/s^2; and the virtual inertia that is to
+/// move with it on both sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever integrates
+/// applies these.
 inline constexpr int acceleration = 13, angular_acceleration = 16;
 inline constexpr int virtual_mass = 19, virtual_moment = 20;
-inline constexpr int inner_velocity = 21, inner_spin = 24, outer_velocity = 27,
-                     outer_spin = 30;  ///< HeldFluid
+inline constexpr int lead = 21, spin_lead = 24;  ///< of the fluid that it holds: kg m/s, kg m^2/s
 /// k of the solid weighting where it is automatic (0: not known yet), and where the grain was when it was
 /// found, m.
-inline constexpr int coefficient = 33, surveyed_at = 34;
+inline constexpr int coefficient = 27, surveyed_at = 28;
 }  // namespace history
-inline constexpr int kHistoryLength = 37;
+inline constexpr int kHistoryLength = 31;
 
 /// The spheres that one rank knows, in SI: those it owns first, then copies of others' (ghosts, periodic
 /// images among them), which are where the image is. Vectors are x y z, one grain after the other.

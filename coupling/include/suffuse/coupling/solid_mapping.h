@@ -40,10 +40,12 @@ class SolidMapping {
   /// `place` and `write`.
   std::size_t update(const std::vector<LatticeSphere>& spheres);
 
-  /// Starts the sums over the cells of each sphere; `sum_rows` adds one block's, `sum` does all of the rank.
+  /// The sums over the cells of each sphere: `sum_rows` adds one block's, in between the others; `sum` does
+  /// everything for all cells of the rank.
   void begin_loads() { loads_.assign(mapped_.size(), {}); }
   void sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange);
-  void sum();
+  void finish_loads(double relaxation_time);
+  void sum(double relaxation_time);
   /// By sphere, as in the last `place`; zero for one that reaches no cell of this rank.
   const std::vector<LatticeLoad>& loads() const { return loads_; }
 

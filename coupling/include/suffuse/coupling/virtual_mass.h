@@ -6,11 +6,12 @@ namespace suffuse::coupling {
 
 /// How much inertia of fluid is added to both sides of a grain's equations of motion,
 ///
-///   (m + Cv m_f) a = F + Cv m_f a_before   (a_before: mean acceleration over the last fluid step),
+///   (m + Cv m_f) a = F + Cv m_f a_before   (a_before: running mean of the acceleration, kPredictionRate),
 ///
-/// and the same with moments of inertia. The exact motion does not change, but the explicit exchange does:
-/// within one step the fluid answers a sudden change of a sphere's velocity with C m_f times that change. A
-/// grain then follows only if C m_f < m; with a virtual mass it does as soon as Cv > (C - m/m_f)/2.
+/// and the same with moments of inertia (docs key: schwarz2015). The exact motion changes by a lag of some
+/// steps only, but the explicit exchange does not: the fluid answers a sudden change of a sphere's velocity
+/// with C m_f times that change, part of it at once and part in the steps after. A light grain follows only
+/// with a virtual mass of about that size, and only if a_before is slower than the answer.
 struct VirtualMassRule {
   /// The same Cv for translation and rotation of every grain (0: none); otherwise the estimate of C, for the
   /// grains that need it.
@@ -25,16 +26,21 @@ struct VirtualInertia {
   double moment = 0;  ///< kg m^2
 };
 
-/// C of a sphere of `radius` cells in the first step after a change of velocity: the potential-flow added
-/// mass 1/2, Basset's impulse 9 sqrt(nu/pi)/a and Stokes' drag 9 nu/(2 a^2) (docs key: landaulifshitz1987,
-/// problem 7 of section 24).
+/// a_before moves towards the last step's acceleration by this share a step. With 1 (docs key: schwarz2015)
+/// spheres of one or two cells at relaxation time 1.5 run away with any virtual mass, at 0.1 times the
+/// fluid's density already from relaxation time 0.6 on: the drag of the step before pushes them over.
+inline constexpr double kPredictionRate = 0.25;
+
+/// C of a sphere of `radius` cells just after a change of velocity: the potential-flow added mass 1/2, of
+/// a sphere half a cell larger since it holds whole cells, Basset's impulse 9 sqrt(nu/pi)/a and Stokes' drag
+/// 9 nu/(2 a^2) (docs key: landaulifshitz1987, problem 7 of section 24).
 double response_coefficient(double radius, double viscosity);
 
 /// The same for rotation, in moments of inertia of the displaced fluid: 10 sqrt(nu/pi)/a + 15 nu/a^2.
 double rotational_response_coefficient(double radius, double viscosity);
 
-/// Of a sphere of `radius` (m) and `mass` (kg). The estimate is for a lone sphere and its own volume; dense
-/// beds and few cells a diameter answer up to some 2.5 times as much, so grains get it from C m_f > 0.4 m on.
+/// Of a sphere of `radius` (m) and `mass` (kg). The estimate is for a lone sphere; grains get 1.5 times it
+/// from C m_f > 0.4 m on, as neighbours make the fluid's answer stiffer.
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass);
 
 }  // namespace suffuse::coupling

@@ -39,11 +39,14 @@ struct PartialSolidCell {
 double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell& cell,
                     double relaxation_time);
 
-/// By which share of its distance from the solid's velocity the momentum of a cell changes in one step: B for
-/// SC1 and SC2, 2B for SC3 and `force` (above one it overshoots). The coefficient is used by the
-/// viscosity-independent weighting only.
-double following_rate(const PartialSolidSettings& settings, double fraction, double coefficient,
-                      double relaxation_time);
+/// In one step the momentum of a cell comes nearer to its solid's by the share B (SC1, SC2) or 2B (SC3,
+/// `force`) of the difference, and the exchange is what it gives. So after the step the cell is still
+/// exchange (1/share - 1) away; times the covered part eps that is exchange (whole + slope (eps - 1)),
+/// linear in eps for every weighting.
+struct HeldTerms {
+  double whole = 0, slope = 0;
+};
+HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time);
 
 /// Momentum that the fluid handed to the solids of each cell, one array for each component, in the storage
 /// type of the fluid.

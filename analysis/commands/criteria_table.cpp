@@ -1,0 +1,102 @@
+#include "commands/criteria_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "suffuse/analysis/grading_file.h"
+#include "suffuse/analysis/grain_snapshot.h"
+#include "suffuse/analysis/number_parser.h"
+#include "suffuse/common/error.h"
+
+namespace suffuse::analysis {
+
+namespace {
+
+using micromechanics::CriterionResult;
+using micromechanics::Grading;
+
+std::string value_text(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.4g}", value);
+}
+
+/// A CSV cell; between quotes where it must be.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string criteria_text(const std::vector<CriterionResult>& results) {
+  std::size_t name = 9, measure = 7, limit = 5;
+  for (const CriterionResult& result : results) {
+    name = std::max(name, result.criterion.size());
+    measure = std::max(measure, result.measure.size());
+    limit = std::max(limit, result.limit.size());
+  }
+  std::string text = fmt::format("{:<{}}  {:<{}}  {:>9}  {:<{}}  {:<14}  {}\n", "criterion", name, "measure",
+                                 measure, "value", "limit", limit, "verdict", "source");
+  for (const CriterionResult& result : results)
+    text += fmt::format("{:<{}}  {:<{}}  {:>9}  {:<{}}  {:<14}  {}\n", result.criterion, name, result.measure,
+                        measure, value_text(result.value), result.limit, limit, to_string(result.verdict),
+                        result.source);
+  text += "\n";
+  for (const CriterionResult& result : results)
+    if (!result.note.empty()) text += fmt::format("{}: {}\n", result.criterion, result.note);
+  return text;
+}
+
+void write_criteria(SafeFile& file, const std::vector<CriterionResult>& results) {
+  file.write("criterion,measure,value,limit,verdict,source,note\n");
+  for (const CriterionResult& result : results)
+    file.write(fmt::format("{},{},{},{},{},{},{}\n", cell(result.criterion), cell(result.measure),
+                           std::isnan(result.value) ? std::string() : fmt::format("{}", result.value),
+                           cell(result.limit), to_string(result.verdict), result.source, cell(result.note)));
+}
+
+void set_limits(const std::vector<std::string>& words, const std::string& who,
+                micromechanics::StabilityLimits& limits) {
+  for (const std::string& word : words) {
+    const auto equals = word.find('=');
+    double value = 0;
+    if (equals == std::string::npos || !parse_number(word.substr(equals + 1), value) || !std::isfinite(value))
+      throw_user_error({who, "--limit", word, "be name=number", "such as kezdi=5"});
+    const auto& names = micromechanics::limit_names();
+    const auto found = std::find_if(names.begin(), names.end(), [&](const micromechanics::LimitName& known) {
+      return known.name == word.substr(0, equals);
+    });
+    if (found == names.end()) {
+      std::string all;
+      for (const auto& known : names) all += fmt::format("{}{}", all.empty() ? "" : ", ", known.name);
+      throw_user_error({who, "--limit", word, "name a limit", "one of " + all});
+    }
+    limits.*(found->member) = value;
+  }
+}
+
+Grading grading_of_file(const std::string& path, const std::string& who) {
+  if (!is_dump(path, who)) return read_grading(path, who);
+  return Grading::from_grains(diameters_of(read_grain_snapshot(path, who, false)));
+}
+
+std::string grading_text(const Grading& grading) {
+  const micromechanics::GradingIndices d = micromechanics::grading_indices(grading);
+  std::string text = fmt::format(
+      "sizes in mm: d5 {:.4g}, d10 {:.4g}, d15 {:.4g}, d30 {:.4g}, d50 {:.4g}, d60 {:.4g}, d85 {:.4g}, d90 "
+      "{:.4g}\n",
+      1e3 * d.d5, 1e3 * d.d10, 1e3 * d.d15, 1e3 * d.d30, 1e3 * d.d50, 1e3 * d.d60, 1e3 * d.d85, 1e3 * d.d90);
+  text += fmt::format("Cu {:.4g}, Cc {:.4g}, Sauter's size {:.4g} mm; ", d.uniformity, d.curvature,
+                      1e3 * d.sauter);
+  if (const auto& gap = grading.gap())
+    text += fmt::format("gap-graded: ratio {:.4g} ({:.4g} to {:.4g} mm), {:.3g} % fines\n", gap->ratio(),
+                        1e3 * gap->finer_diameter, 1e3 * gap->coarser_diameter, 100 * gap->finer);
+  else
+    text += "continuously graded\n";
+  return text;
+}
+
+}  // namespace suffuse::analysis

@@ -1,0 +1,69 @@
+#include "commands/grading_command.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "commands/criteria_table.h"
+
+namespace suffuse::analysis {
+namespace {
+
+constexpr const char* kWho = "grading";
+
+struct Options {
+  std::string file, output, curve, shape;
+  std::vector<std::string> limits;
+};
+
+void write_curve(SafeFile& file, const micromechanics::Grading& grading) {
+  file.write("diameter_m,percent_finer\n");
+  for (const auto& point : grading.curve())
+    file.write(fmt::format("{},{}\n", point.diameter, 100 * point.finer));
+}
+
+/// The whole shape curve, and up to which F it was searched.
+void write_shape(SafeFile& file, const micromechanics::Grading& grading,
+                 const micromechanics::StabilityLimits& limits) {
+  const auto least = micromechanics::minimum_shape_ratio(grading, limits);
+  file.write("diameter_m,finer_percent,interval_percent,searched_to_percent,limit_ratio\n");
+  for (const auto& point : micromechanics::shape_curve(grading, 1))
+    file.write(fmt::format("{},{},{},{},{}\n", point.diameter, 100 * point.finer, 100 * point.interval,
+                           100 * least.finer_limit, limits.kenney_lau));
+}
+
+void run(const Options& options) {
+  micromechanics::StabilityLimits limits;
+  set_limits(options.limits, kWho, limits);
+  const micromechanics::Grading grading = grading_of_file(options.file, kWho);
+  const auto results = micromechanics::grading_criteria(grading, limits);
+  std::optional<SafeFile> output, curve, shape;
+  if (!options.output.empty()) write_criteria(output.emplace(options.output, "grading --output"), results);
+  if (!options.curve.empty()) write_curve(curve.emplace(options.curve, "grading --curve"), grading);
+  if (!options.shape.empty()) write_shape(shape.emplace(options.shape, "grading --shape"), grading, limits);
+  for (auto* file : {&output, &curve, &shape})
+    if (*file) (*file)->commit();
+  fmt::print("{}\n{}", grading_text(grading), criteria_text(results));
+}
+
+}  // namespace
+
+void add_grading(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand(kWho, "Particle size distribution: sizes, Cu, Cc, gap, and the criteria on it");
+  command
+      ->add_option("PSD", options->file,
+                   "CSV file with diameter_m or diameter_mm (or radius_m) and mass_fraction, mass_kg or "
+                   "percent_finer; or a dump of grains (its last snapshot)")
+      ->required();
+  command->add_option("--output", options->output, "CSV file with the criteria");
+  command->add_option("--curve", options->curve, "CSV file with the cumulative curve");
+  command->add_option("--shape", options->shape, "CSV file with Kenney and Lau's shape curve (H, F)");
+  command->add_option("--limit", options->limits,
+                      "another limit, name=value, such as kenney_lau=1.3; may be repeated");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace suffuse::analysis

@@ -1,0 +1,67 @@
+#include "commands/read_options.h"
+
+#include <fmt/format.h>
+
+#include "suffuse/analysis/contact_measures.h"
+#include "suffuse/analysis/dump_file.h"
+#include "suffuse/analysis/number_parser.h"
+#include "suffuse/common/error.h"
+
+namespace suffuse::analysis {
+
+void ReadOptions::add_to(CLI::App& command) {
+  settings.who = command.get_name();
+  command
+      .add_option("files", files,
+                  "LIGGGHTS dumps of the grains (dump custom) and of the contacts (dump local of compute "
+                  "pair/gran/local), text or gzip, in any order, patterns too; or one of our HDF5 files")
+      ->required();
+  command.add_option(
+      "--pair-values", pair_values,
+      "words of the script's compute pair/gran/local, if not guessed rightly: \"pos id force …\"");
+  command
+      .add_option("--column", renamed, "OURS=THEIRS: the column of a quantity, e.g. radius=c_r or id1=c_p[7]")
+      ->take_all();
+  command.add_option("--friction", settings.friction, "coefficient of friction of the contacts")
+      ->capture_default_str();
+  command.add_option("--volume", volume, "volume of the sample, m³, where it is not the box");
+}
+
+std::unique_ptr<SnapshotSeries> ReadOptions::open() {
+  for (const std::string& text : renamed) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw_user_error({settings.who, "--column", text, "be OURS=THEIRS", "for example radius=c_r"});
+    settings.columns[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  for (const std::string_view word : words_of(pair_values)) settings.contact_words.emplace_back(word);
+  if (!(settings.friction >= 0))
+    throw_user_error({settings.who, "--friction", fmt::format("{}", settings.friction), "be >= 0", ""});
+  if (volume < 0) throw_user_error({settings.who, "--volume", fmt::format("{}", volume), "be > 0", "in m³"});
+  if (volume > 0) settings.volume = volume;
+  return open_series(files, settings);
+}
+
+void SplitOption::add_to(CLI::App& command) {
+  command.add_option("--split", text,
+                     "fines are the grains of a smaller diameter, m; gap: in the widest gap of the sizes");
+}
+
+std::optional<double> SplitOption::value(const micromechanics::Packing& packing,
+                                         const std::string& who) const {
+  if (text.empty()) return std::nullopt;
+  if (text == "gap") return split_in_the_gap(packing, who);
+  double diameter = 0;
+  if (!parse_number(text, diameter) || !(diameter > 0))
+    throw_user_error({who, "--split", text, "be a diameter > 0 in m, or gap", "for example 0.3e-3"});
+  return diameter;
+}
+
+int axis_of(const std::string& text, const std::string& who) {
+  if (text == "x") return 0;
+  if (text == "y") return 1;
+  if (text == "z") return 2;
+  throw_user_error({who, "--axis", text, "be x, y or z", ""});
+}
+
+}  // namespace suffuse::analysis

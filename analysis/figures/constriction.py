@@ -1,0 +1,111 @@
+#!/usr/bin/env python3
+"""Constriction sizes of a soil, and where eqs 4.7 and 4.8 of the thesis put it between stable and unstable.
+
+From the files that `suffuse-analyse constriction` writes with --distribution and --prediction:
+
+  constriction.py --distribution FILE.csv [--grading CURVE.csv] --output FIGURE.pdf     constriction size distribution
+  constriction.py --prediction FILE.csv [FILE.csv ...] [--measured CONTACTS.csv ...] --output FIGURE.pdf    Z and alpha
+
+CURVE.csv is of `suffuse-analyse grading --curve`, CONTACTS.csv of `suffuse-analyse contacts --output` (its last row).
+The ending of --output says the format (png, pdf, svg).
+"""
+import argparse
+import pathlib
+
+from time_series import TimeSeries
+
+FRACTIONS = (("surface_area", "surface area", "blue"), ("mass", "mass", "orange"), ("number", "number", "green"))
+
+
+def draw_distribution(series, grading, output):
+    import suffuse_style as style
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(style.COLUMN_WIDTH, 3.2))
+    percent = series["percent_finer"]
+
+    def micrometres(column):
+        return [1e6 * size for size in series[column]]
+
+    for key, name, colour in FRACTIONS:
+        if f"dense_by_{key}_m" not in series:
+            continue
+        colour = style.COLOURS[colour]
+        if key == "surface_area":
+            axes.fill_betweenx(percent, micrometres(f"dense_by_{key}_m"), micrometres(f"loose_by_{key}_m"), color=colour, alpha=0.15,
+                               linewidth=0, label="three to four grains, by surface area")
+        axes.plot(micrometres(f"at_density_by_{key}_m"), percent, color=colour, label=f"at the relative density, by {name}")
+    if "packing_m" in series:
+        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label="of the packing, by number")
+    if grading:
+        axes.plot([1e6 * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
+    axes.axhline(35, **style.REFERENCE)
+    axes.annotate("35 %", xy=(0, 35), xycoords=("axes fraction", "data"), xytext=(3, 2), textcoords="offset points", fontsize=8,
+                  color=style.REFERENCE["color"])
+    axes.set(xscale="log", xlabel="constriction or grain diameter (µm)", ylabel="finer (%)", ylim=(0, 100))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.grid(True, which="both")
+    axes.legend(fontsize=7, loc="best")
+    style.save(figure, output)
+
+
+def draw_prediction(predictions, names, measured, output):
+    import suffuse_style as style
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(style.COLUMN_WIDTH, 3.4))
+    for series, name in zip(predictions, names):
+        line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{name}, eqs 4.7, 4.8")
+        ends = [(series["coordination_number"][i], series["stress_reduction"][i]) for i in (0, -1)]
+        if max(abs(a - b) for a, b in zip(*ends)) < 0.3:  # no room for a name at either end
+            continue
+        for index, text in ((0, "loosest"), (-1, "densest")):
+            axes.annotate(text, xy=(series["coordination_number"][index], series["stress_reduction"][index]), xytext=(4, -9),
+                          textcoords="offset points", fontsize=7, color=line.get_color())
+    for path, series in measured:
+        axes.plot(series.last("coordination_number"), series.last("alpha_pair_halves"), linestyle="", marker="D", markersize=5,
+                  label=f"{pathlib.Path(path).stem}, measured")
+    axes.axvline(1, **style.REFERENCE)
+    axes.axhline(0.5, **style.REFERENCE)
+    axes.annotate("Z = 1", xy=(1, 1), xycoords=("data", "axes fraction"), xytext=(3, -8), textcoords="offset points", fontsize=8,
+                  color=style.REFERENCE["color"])
+    axes.annotate("α = 0.5", xy=(1, 0.5), xycoords=("axes fraction", "data"), xytext=(-2, 3), textcoords="offset points", fontsize=8,
+                  ha="right", color=style.REFERENCE["color"])
+    axes.axvspan(0, 1, color="#808080", alpha=0.10, linewidth=0)
+    axes.fill_between([1, 7], 0, 0.5, color="#808080", alpha=0.10, linewidth=0)
+    axes.annotate("unstable", xy=(0.03, 0.94), xycoords="axes fraction", fontsize=8, color=style.REFERENCE["color"])
+    axes.set(xlabel="coordination number Z (−)", ylabel="stress reduction factor α (−)", xlim=(0, 6.5), ylim=(0, 2))
+    axes.legend(fontsize=7, loc="lower right")
+    style.save(figure, output)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--distribution", help="CSV file of constriction sizes")
+    parser.add_argument("--grading", help="CSV file of the grading's curve, to draw beside them")
+    parser.add_argument("--prediction", nargs="+", default=[], help="CSV files of Z and alpha over the relative density")
+    parser.add_argument("--measured", nargs="+", default=[], help="CSV files of measured contacts")
+    parser.add_argument("--names", nargs="+", help="what the soils are called; their files' names if not given")
+    parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    options = parser.parse_args()
+    if bool(options.distribution) == bool(options.prediction):
+        parser.error("one figure a time: give --distribution or --prediction")
+    if options.distribution:
+        series = TimeSeries(options.distribution)
+        series.require("percent_finer")
+        draw_distribution(series, TimeSeries(options.grading) if options.grading else None, options.output)
+        return
+    names = options.names or [pathlib.Path(path).stem for path in options.prediction]
+    if len(names) != len(options.prediction):
+        parser.error("as many --names as predictions, please")
+    predictions = [TimeSeries(path) for path in options.prediction]
+    for series in predictions:
+        series.require("coordination_number", "stress_reduction")
+    measured = [(path, TimeSeries(path)) for path in options.measured]
+    for _, series in measured:
+        series.require("coordination_number", "alpha_pair_halves")
+    draw_prediction(predictions, names, measured, options.output)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace suffuse::analysis {
+
+/// A text file that appears under its name only when it is complete: what is written goes to `PATH.part`,
+/// commit() renames it, and without commit() (an error on the way) it is removed.
+class SafeFile {
+ public:
+  /// Throws UserError where the file cannot be made; `who` begins the message ("contacts --output").
+  SafeFile(std::string path, std::string who);
+  ~SafeFile();
+  SafeFile(const SafeFile&) = delete;
+  SafeFile& operator=(const SafeFile&) = delete;
+
+  void write(std::string_view text);
+  /// Closes and renames. Throws UserError if the disk is full or the name cannot be taken.
+  void commit();
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_, part_, who_;
+  std::ofstream stream_;
+  bool committed_ = false;
+};
+
+}  // namespace suffuse::analysis

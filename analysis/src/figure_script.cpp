@@ -1,0 +1,71 @@
+#include "suffuse/analysis/figure_script.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::analysis {
+namespace {
+
+namespace files = std::filesystem;
+
+/// Exit code of a program with these arguments; 127 where it cannot be started.
+int run(const std::vector<std::string>& words, bool silent) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = fork();
+  if (child < 0) return 127;
+  if (child == 0) {
+    if (silent) {
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      dup2(nowhere, STDERR_FILENO);
+    }
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 127;
+}
+
+std::string find_script(const std::string& script, const std::string& who) {
+  std::vector<files::path> folders;
+  if (const char* given = std::getenv("SUFFUSE_FIGURES")) folders.emplace_back(given);
+  std::error_code ignored;  // without /proc only the variable helps
+  files::path above = files::read_symlink("/proc/self/exe", ignored).parent_path();
+  folders.push_back(above.parent_path() / "share/suffuse/figures");
+  for (; above.has_relative_path(); above = above.parent_path())
+    folders.push_back(above / "analysis/figures");
+  for (const files::path& folder : folders)
+    if (files::is_regular_file(folder / script)) return (folder / script).string();
+  throw_user_error({who, "figure", script, "find the script",
+                    "set SUFFUSE_FIGURES to the folder share/suffuse/figures of the installation"});
+}
+
+std::string find_python(const std::string& who) {
+  std::vector<std::string> candidates{"python3", "/usr/bin/python3"};
+  if (const char* given = std::getenv("SUFFUSE_PYTHON")) candidates.insert(candidates.begin(), given);
+  for (const std::string& python : candidates)
+    if (run({python, "-c", "import matplotlib"}, true) == 0) return python;
+  throw_user_error({who, "figure", "python3", "have matplotlib",
+                    "install it (apt-get install python3-matplotlib), or name a Python in SUFFUSE_PYTHON"});
+}
+
+}  // namespace
+
+void make_figure(const std::string& script, const std::vector<std::string>& arguments,
+                 const std::string& who) {
+  std::vector<std::string> words{find_python(who), find_script(script, who)};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  if (const int code = run(words, false); code != 0)
+    throw_user_error({who, "figure", script, "be drawn", "the script's own message stands above"});
+}
+
+}  // namespace suffuse::analysis

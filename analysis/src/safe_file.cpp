@@ -1,0 +1,39 @@
+#include "suffuse/analysis/safe_file.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::analysis {
+
+SafeFile::SafeFile(std::string path, std::string who)
+    : path_(std::move(path)), part_(path_ + ".part"), who_(std::move(who)) {
+  if (std::filesystem::is_directory(path_))
+    throw_user_error({who_, "file", path_, "be a file", "this is a folder; add a name"});
+  stream_.open(part_, std::ios::binary | std::ios::trunc);
+  if (!stream_)
+    throw_user_error({who_, "file", path_, "be writable", "check that the folder exists and is yours"});
+}
+
+SafeFile::~SafeFile() {
+  if (committed_) return;
+  stream_.close();
+  std::error_code ignored;  // nothing more can be done in a destructor
+  std::filesystem::remove(part_, ignored);
+}
+
+void SafeFile::write(std::string_view text) {
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+}
+
+void SafeFile::commit() {
+  stream_.close();
+  std::error_code problem;
+  if (stream_) std::filesystem::rename(part_, path_, problem);
+  if (!stream_ || problem)
+    throw_user_error({who_, "file", path_, "take what is written", "is the disk full?"});
+  committed_ = true;
+}
+
+}  // namespace suffuse::analysis

@@ -1,0 +1,56 @@
+#include "suffuse/micromechanics/seepage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suffuse::micromechanics {
+
+double critical_gradient(double porosity, double grain_density, const SeepageFluid& fluid) {
+  return (grain_density / fluid.density - 1) * (1 - porosity);
+}
+
+double critical_gradient_of_fines(double porosity, double grain_density, double stress_reduction,
+                                  const SeepageFluid& fluid) {
+  return std::min(1.0, stress_reduction) * critical_gradient(porosity, grain_density, fluid);
+}
+
+double critical_gradient_by_mean_stress(double porosity, double grain_density, double stress_reduction,
+                                        const LayerStress& layer, const SeepageFluid& fluid) {
+  const double alpha = std::min(1.0, stress_reduction);
+  const double normalised = layer.stress / (fluid.density * fluid.gravity * layer.thickness);
+  return alpha / (1 - alpha / 2) * (normalised + critical_gradient(porosity, grain_density, fluid) / 2);
+}
+
+double critical_gradient_by_top_stress(double porosity, double grain_density, double stress_reduction,
+                                       const LayerStress& layer, const SeepageFluid& fluid) {
+  const double normalised = layer.stress / (fluid.density * fluid.gravity * layer.thickness);
+  return std::min(1.0, stress_reduction) * (normalised + critical_gradient(porosity, grain_density, fluid));
+}
+
+double conductivity_hazen(double d10, double coefficient) {
+  return coefficient * d10 * d10;
+}
+
+double conductivity_carman_kozeny(double diameter, double porosity, const SeepageFluid& fluid) {
+  const double solid = 1 - porosity;
+  return fluid.gravity / fluid.kinematic_viscosity * diameter * diameter * std::pow(porosity, 3) /
+         (180 * solid * solid);
+}
+
+double conductivity_chapuis(double d10, double porosity) {
+  const double void_ratio = porosity / (1 - porosity), millimetres = 1e3 * d10;
+  return 1e-2 * 2.4622 *
+         std::pow(millimetres * millimetres * std::pow(void_ratio, 3) / (1 + void_ratio), 0.7825);
+}
+
+double velocity_ergun(double gradient, double diameter, double porosity, const SeepageFluid& fluid) {
+  const double solid = 1 - porosity, pore = std::pow(porosity, 3);
+  const double linear = 150 * fluid.kinematic_viscosity * solid * solid / (diameter * diameter * pore);
+  const double square = 1.75 * solid / (diameter * pore);
+  const double drive = fluid.gravity * std::abs(gradient);
+  // The root of square U² + linear U = drive, in the form that loses no digits at small gradients.
+  const double velocity = 2 * drive / (linear + std::sqrt(linear * linear + 4 * square * drive));
+  return std::copysign(velocity, gradient);
+}
+
+}  // namespace suffuse::micromechanics

@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+"""analyse_program.py --analyse PROGRAM
+
+`suffuse-analyse` as a program: help and version; one line and exit code 1 for every mistake, with nothing left behind, neither a
+result nor a part of one; results as CSV, JSON and figures; and samples that no table has are refused, rows not run left out.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+RADIUS = 0.5e-3
+SIDE = 3
+
+
+def check(condition, message):
+    if not condition:
+        sys.exit("FAILED: " + message)
+
+
+def packing(step, force=0.25):
+    """A periodic simple cubic packing: text of grains and contacts. Contacts along z push twice as hard."""
+    length = 2 * RADIUS * SIDE
+    head = f"ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF {{}}\n{{}}\nITEM: BOX BOUNDS pp pp pp\n" + 3 * f"0 {length}\n"
+    cells = [(x, y, z) for x in range(SIDE) for y in range(SIDE) for z in range(SIDE)]
+    number = {cell: k + 1 for k, cell in enumerate(cells)}
+    place = lambda cell: [(c + 0.5) * 2 * RADIUS for c in cell]  # noqa: E731
+    grains = [f"{number[c]} {' '.join(f'{v:g}' for v in place(c))} {RADIUS}" for c in cells]
+    contacts = []
+    for cell in cells:
+        for axis in range(3):
+            other = tuple((c + (a == axis)) % SIDE for a, c in enumerate(cell))
+            push = [-force * (1 + (axis == 2)) if a == axis else 0 for a in range(3)]
+            contacts.append(" ".join(f"{v:g}" for v in place(cell) + place(other) + [number[cell], number[other], 1] + push))
+    return (head.format("ATOMS", len(grains)) + "ITEM: ATOMS id x y z radius\n" + "\n".join(grains) + "\n",
+            head.format("ENTRIES", len(contacts)) + "ITEM: ENTRIES " + " ".join(f"c_1[{k}]" for k in range(1, 13)) + "\n" + "\n".join(contacts) + "\n")
+
+
+class Program:
+    def __init__(self, path, folder):
+        self.path, self.folder = path, folder
+
+    def run(self, *words):
+        done = subprocess.run([self.path, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+        return done.returncode, done.stdout.decode(), done.stderr.decode()
+
+    def must_run(self, *words):
+        code, out, err = self.run(*words)
+        check(code == 0, f"{words} ended with {code}: {err}")
+        return out
+
+    def must_refuse(self, words, *told):
+        before = set(self.folder.rglob("*"))
+        code, out, err = self.run(*words)
+        lines = err.strip().splitlines()
+        check(code == 1 and len(lines) == 1, f"{words}: exit code {code}, {len(lines)} lines:\n{err}")
+        check(lines[0].startswith("suffuse-analyse: error: "), lines[0])
+        check(all(word in lines[0] for word in told), f"{words} says only: {lines[0]}")
+        check(set(self.folder.rglob("*")) == before, f"{words} leaves {set(self.folder.rglob('*')) - before}")
+
+
+def check_results(program):
+    folder = program.folder
+    out = program.must_run("contacts", "c.dump", "g.dump", "--output", "series.csv", "--json", "series.json", "--force-pdf", "pdf.csv", "--force-bin", "0.5")
+    check("Z" in out and len(out.splitlines()) == 4, f"the table on the screen:\n{out}")
+    rows = list(csv.DictReader(open(folder / "series.csv")))
+    check([row["step"] for row in rows] == ["10", "20"], f"steps {rows}")
+    stress = 0.25 / (4 * RADIUS ** 2)
+    for row, other in zip(rows, json.load(open(folder / "series.json"))):
+        check(set(row) == set(other), "CSV and JSON have other columns")
+        for name, text in row.items():
+            check((other[name] is None) if text == "" else float(text) == other[name], f"{name} is {text} in CSV and {other[name]} in JSON")
+        # By hand: sigma_xx = F/(2r)^2, sigma_zz twice that; 1e-6: the dump's six digits.
+        for name, expected in (("stress_xx_pa", stress), ("stress_zz_pa", 2 * stress), ("coordination_number", 6), ("strong_share", 1 / 3),
+                               ("axial_deviatoric_stress_pa", stress), ("porosity", 1 - math.pi / 6)):
+            check(abs(float(row[name]) / expected - 1) < 1e-6, f"{name} = {row[name]}, by hand {expected}")
+        check(row["alpha_pair_halves"] == "" and row["time_s"] == "", "a number where there is none")
+    pdf = [row for row in csv.DictReader(open(folder / "pdf.csv")) if row["step"] == "10"]
+    # Two thirds of the contacts at 3/4 of the mean force, one third at 3/2: bins of 0.5.
+    check([round(float(row["density_normal"]) * 0.5, 9) for row in pdf[:4]] == [0, round(2 / 3, 9), 0, round(1 / 3, 9)], f"force PDF {pdf[:4]}")
+
+
+def check_rose(program, has_figures):
+    words = ["rose", "c.dump", "g.dump", "--plane", "xz", "--output", "rose.csv", "--fits", "fits.csv", "--sphere", "sphere.csv", "--cells", "60"]
+    out = program.must_run(*words, *(["--figure", "rose.svg", "--sphere-figure", "sphere.png"] if has_figures else []))
+    check("step 20" in out, out)
+    rows = list(csv.DictReader(open(program.folder / "rose.csv")))
+    width = 2 * math.pi / 36
+    check(len(rows) == 36 and abs(sum(float(r["contact_density_per_rad"]) for r in rows) * width - 1) < 1e-12, "the density does not add up to 1")
+    check(sorted({float(r["contacts"]) for r in rows}) == [0, 27], "normals along x and z only, 27 each way")
+    ratio = float(rows[9]["normal_force_density_per_rad"]) / float(rows[0]["normal_force_density_per_rad"])
+    check(abs(ratio - 2) < 1e-12, f"the normal force along z is {ratio} times that along x, not 2")
+    sphere = list(csv.DictReader(open(program.folder / "sphere.csv")))
+    total = sum(float(r["contact_density_per_sr"]) * float(r["solid_angle_sr"]) for r in sphere)
+    check(abs(total - 1) < 1e-12 and sum(float(r["contacts"]) for r in sphere) == 162, "the spherical histogram does not hold all contacts")
+    if has_figures:
+        check((program.folder / "rose.svg").stat().st_size > 5000 and (program.folder / "sphere.png").stat().st_size > 5000, "no figures")
+
+
+def check_reproduce(program):
+    folder = program.folder
+    (folder / "a").mkdir()
+    (folder / "a" / "grains.dump").write_text(packing(5)[0])
+    (folder / "a" / "contacts.dump").write_text(packing(5)[1])
+    toml = folder / "a" / "sample.toml"
+    toml.write_text('table_4_1 = "1"\nstate = "loose"\nsplit_m = 1e-4\n')
+    out = program.must_run("reproduce", "table-4-1", ".", "--output", "table.csv")
+    check("1 loose" in out and "1 of 63 rows" in out and "8b" not in out, out)
+    rows = {row["quantity"]: row for row in csv.DictReader(open(folder / "table.csv"))}
+    check(float(rows["coordination_number"]["measured"]) == 6 and rows["coordination_number"]["thesis"] == "4.317", f"{rows}")
+    check(rows["kenney_lau_ratio"]["thesis"] == "" and rows["alpha_pair_halves"]["measured"] == "", "a number where there is none")
+    program.must_refuse(["reproduce", "table-5-1", "a"], "table-5-1", "no folder")
+    for text, words in (('table_4_1 = "99"\nstate = "loose"\n', ("99", "sample of the table")), ('table_4_1 = "1"\n', ("state",)),
+                        ('table_4_1 = "1"\nstate = "soft"\n', ("soft", "loose, medium or dense")), ('table_4_1 = "1\n', ("sample.toml", "line 1")),
+                        ('table_4_1 = "1"\nfriction_compression = 0.2\n', ("0.2",)), ('tabel = "1"\n', ("tabel", "table_4_1")),
+                        ('state = "loose"\n', ("table_4_1",)), ('table_4_1 = "1"\nstate = "loose"\ngrains = "none.dump"\n', ("none.dump",)),
+                        ('table_4_1 = "1"\nstate = "loose"\n', ("--split", "gap"))):
+        toml.write_text(text)
+        program.must_refuse(["reproduce", "table-4-1", "a", "--output", "other.csv"], "reproduce table-4-1", *words)
+    program.must_refuse(["reproduce", "table-4-1", "nowhere"], "nowhere", "folder")
+
+
+def check_mistakes(program):
+    folder = program.folder
+    good = (folder / "c.dump").read_text()
+    (folder / "cut.dump").write_text(good[:len(good) - 200])
+    (folder / "nan.dump").write_text(good[:good.rfind(" ")] + " nan\n")
+    outputs = ["--output", "o.csv", "--json", "o.json", "--force-pdf", "o.pdf.csv"]
+    # The first snapshot is whole: what was written of it goes again.
+    program.must_refuse(["contacts", "cut.dump", "g.dump", *outputs], "cut.dump, line", "cut short")
+    program.must_refuse(["contacts", "nan.dump", "g.dump", *outputs], "nan.dump, line", "nan at step 20")
+    program.must_refuse(["rose", "cut.dump", "g.dump", "--output", "o.csv"], "rose: cut.dump")
+    for words, told in ((["contacts"], ("files",)), ([], ("subcommand",)), (["contacts", "c.dump", "g.dump", "--outptu", "x"], ("--outptu",)),
+                        (["contacts", "none.dump"], ("none.dump", "readable")), (["contacts", "c.dump", "g.dump", "--split", "-1"], ("--split", "-1")),
+                        (["contacts", "c.dump", "g.dump", "--split", "gap"], ("--split", "gap")), (["contacts", "c.dump", "g.dump", "--friction", "-1"], ("--friction",)),
+                        (["contacts", "c.dump", "g.dump", "--strong", "most"], ("--strong", "most")), (["contacts", "c.dump", "g.dump", "--axis", "w"], ("--axis", "w")),
+                        (["contacts", "c.dump", "g.dump", "--column", "radius"], ("--column", "OURS=THEIRS")),
+                        (["contacts", "c.dump", "g.dump", "--output", "no/folder/o.csv"], ("no/folder/o.csv",)),
+                        (["contacts", "c.dump", "g.dump", "--volume", "1e-12"], ("volume",)), (["rose", "c.dump", "g.dump", "--plane", "zx"], ("--plane", "zx")),
+                        (["rose", "c.dump", "g.dump", "--bins", "7"], ("--bins", "7")), (["rose", "c.dump", "g.dump", "--order", "3"], ("--order", "3")),
+                        (["rose", "c.dump", "g.dump", "--step", "15"], ("--step", "15")), (["rose", "c.dump", "g.dump", "--figure", "r.png"], ("--figure", "--output"))):
+        program.must_refuse(words, *told)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--analyse", required=True)
+    path = parser.parse_args().analyse
+    has_figures = any(subprocess.run([python, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False).returncode == 0
+                      for python in ("python3", "/usr/bin/python3") if python == "python3" or pathlib.Path(python).exists())
+    with tempfile.TemporaryDirectory(prefix="suffuse-test-") as folder:
+        program = Program(path, pathlib.Path(folder))
+        for words in (["--help"], ["contacts", "--help"], ["rose", "--help"], ["reproduce", "table-4-1", "--help"]):
+            check("Usage" in program.must_run(*words), f"{words} does not help")
+        check(program.must_run("--version").startswith("suffuse-analyse "), "no version")
+        first, second = packing(10), packing(20)
+        (program.folder / "g.dump").write_text(first[0] + second[0])
+        (program.folder / "c.dump").write_text(first[1] + second[1])
+        check_results(program)
+        check_rose(program, has_figures)
+        check_mistakes(program)
+        check_reproduce(program)
+    print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,192 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "grading_samples.h"
+#include "suffuse/micromechanics/constriction_criteria.h"
+#include "suffuse/micromechanics/internal_stability.h"
+
+using namespace suffuse::micromechanics;
+using namespace suffuse::micromechanics::testing;
+
+namespace {
+
+using Points = std::vector<GradingPoint>;
+
+/// Straight over log d, from `smallest` (m) over `decades`.
+Grading straight(double smallest, double decades) {
+  return Grading::from_curve(Points{{smallest, 0}, {smallest * std::pow(10, decades), 1}});
+}
+
+/// Fines 0.1 to 0.2 mm, `share` of the mass; coarse from 0.2 mm × `ratio` to four times it.
+Grading gapped(double share, double ratio) {
+  const double coarse = 0.2e-3 * ratio;
+  return Grading::from_curve(Points{{1e-4, 0}, {2e-4, share}, {coarse, share}, {4 * coarse, 1}});
+}
+
+}  // namespace
+
+TEST_CASE("USACE: more than half sand is stable") {
+  // 1 to 16 mm straight over log d: finer than 4.75 mm ln 4.75/ln 16 = 0.562 of it.
+  const CriterionResult sandy = usace(Grading::from_curve(Points{{1e-3, 0}, {16e-3, 1}}));
+  CHECK(sandy.value == Approx(std::log(4.75) / std::log(16)));
+  CHECK(sandy.verdict == Verdict::stable);
+  CHECK(usace(Grading::from_curve(Points{{2e-3, 0}, {32e-3, 1}})).verdict == Verdict::unstable);
+  CHECK(usace(straight(1e-4, 1)).verdict == Verdict::not_applicable);  // no gravel
+}
+
+TEST_CASE("Istomina: the coefficient of uniformity, both ends of the transition included") {
+  // C_u = 10^(decades/2)
+  CHECK(istomina(straight(1e-4, 1.9)).verdict == Verdict::stable);
+  CHECK(istomina(straight(1e-4, 2.3)).verdict == Verdict::transitional);
+  CHECK(istomina(straight(1e-4, 2.7)).verdict == Verdict::unstable);
+  CHECK(istomina(straight(1e-4, 2)).value == Approx(10));
+  StabilityLimits strict;
+  strict.istomina_stable = 5;
+  CHECK(istomina(straight(1e-4, 1.9), strict).verdict == Verdict::transitional);
+}
+
+TEST_CASE("Lubochkov: a power law d^k has chi^(k - 0.6) at every size") {
+  // In the interior; the curve's own smallest size has W > 0 below nothing, so start well below.
+  const Grading fuller = power_law(1e-7, 1e-2, 0.5);
+  // Straight pieces of 400 over five decades: 1e-3 of the increments.
+  CHECK(lubochkov(fuller).value == Approx(std::pow(2, -0.1)).epsilon(2e-3));
+  CHECK(lubochkov(fuller).verdict == Verdict::stable);
+  StabilityLimits wide;
+  wide.lubochkov_chi = 5;
+  CHECK(lubochkov(fuller, wide).value == Approx(std::pow(5, -0.1)).epsilon(5e-3));
+  CHECK(lubochkov(power_law(1e-7, 1e-2, 0.8)).verdict == Verdict::unstable);
+  CHECK(lubochkov(gapped(0.3, 5)).verdict == Verdict::unstable);
+  CHECK(lubochkov(straight(1e-4, 0.5)).verdict == Verdict::not_applicable);
+}
+
+TEST_CASE("Kezdi and Sherard: of a straight line, every split gives 10^(decades (0.15 + 0.85 F - 0.85 F))") {
+  const CriterionResult on_line = kezdi(straight(1e-4, 4));
+  CHECK(on_line.value == Approx(std::pow(10, 4 * 0.15)));  // 3.98
+  CHECK(on_line.verdict == Verdict::stable);
+  CHECK(kezdi(straight(1e-4, 4.2)).verdict == Verdict::unstable);    // 4.27
+  CHECK(sherard(straight(1e-4, 4.2)).verdict == Verdict::stable);    // below 5
+  CHECK(sherard(straight(1e-4, 4.9)).verdict == Verdict::unstable);  // 5.43
+}
+
+TEST_CASE("Kezdi: beside a gap the coarse side is at its upper end and the fine side below it") {
+  // Worst split: 15 % of the coarse part starts the gap's far end, F = (0.3 − 0.15)/0.85; 0.85F = 0.15 is
+  // half-way up the fines, 0.1 × 2^0.5 mm; the far end 0.6 mm.
+  const SplitMaximum split = maximum_split_ratio(gapped(0.3, 3));
+  CHECK(split.ratio == Approx(0.6 / (0.1 * std::sqrt(2.0))));
+  CHECK(split.finer == Approx(0.15 / 0.85));
+}
+
+TEST_CASE("Kenney and Lau: the minimum over F of H/F") {
+  // Straight over two decades: H = ln 4/ln 100 = 0.301, F up to 0.20 (C_u = 10): 1.505
+  const CriterionResult wide = kenney_lau(straight(1e-4, 2));
+  CHECK(wide.value == Approx(std::log10(4) / 2 / 0.20));
+  CHECK(wide.verdict == Verdict::stable);
+  CHECK(kenney_lau(straight(1e-4, 3.1)).verdict == Verdict::unstable);  // 0.194/0.2
+  // Narrow (C_u = 10^0.45 = 2.8): F up to 0.30, 4d beyond the grading, H = 1 − F.
+  const ShapeMinimum narrow = minimum_shape_ratio(straight(1e-4, 0.9));
+  CHECK(narrow.finer_limit == 0.30);
+  CHECK(narrow.ratio == Approx(std::log10(4) / 0.9 / 0.3).epsilon(1e-6));
+  // Gap of five: nothing between d and 4d.
+  CHECK(kenney_lau(gapped(0.2, 5)).value == Approx(0).margin(1e-12));
+  CHECK(kenney_lau(gapped(0.2, 5)).verdict == Verdict::unstable);
+}
+
+TEST_CASE("Chapuis: the least secant slope per log cycle") {
+  const CriterionResult line = chapuis_kezdi(straight(1e-4, 4));
+  CHECK(line.value == Approx(0.25));  // one over the decades, whatever the secant
+  CHECK(line.verdict == Verdict::stable);
+  CHECK(chapuis_kezdi(straight(1e-4, 4.1)).verdict == Verdict::unstable);  // 0.2439 < 0.15/log 4 = 0.2491
+  CHECK(chapuis_kenney_lau(straight(1e-4, 2)).value == Approx(0.5));
+  CHECK(chapuis_kenney_lau(straight(1e-4, 3.1)).verdict == Verdict::unstable);
+  CHECK(chapuis_kezdi(straight(1e-4, 0.3)).verdict == Verdict::stable);  // all within a factor of four
+}
+
+TEST_CASE("Burenkova: between both lines, and what the misprint would say") {
+  // Straight: h' = 10^(0.3 D), log h'' = 0.75 D. D = 1: 1.995 within 1.57 and 2.395.
+  const CriterionResult inside = burenkova(straight(1e-4, 1));
+  CHECK(inside.value == Approx(std::pow(10, 0.3)));
+  CHECK(inside.verdict == Verdict::stable);
+  CHECK(burenkova(straight(1e-4, 2)).verdict == Verdict::unstable);  // 3.98 above 3.79
+  // A steep coarse end: h' = 1.2, h'' = 10: below 1.76, above the printed 0.76.
+  const CriterionResult below = burenkova(
+      Grading::from_curve(Points{{1e-4, 0}, {2e-4, 0.15}, {2e-3 / 1.2, 0.6}, {2e-3, 0.9}, {3e-3, 1}}));
+  CHECK(below.verdict == Verdict::unstable);
+  CHECK_THAT(below.note, Catch::Contains("lacks + 1") && Catch::Contains("0.760: stable"));
+}
+
+TEST_CASE("Honjo and Liu: gap ratio and fines content") {
+  CHECK(honjo(gapped(0.2, 4)).verdict == Verdict::stable);
+  CHECK(honjo(gapped(0.2, 4.1)).verdict == Verdict::unstable);
+  CHECK(honjo(straight(1e-4, 2)).verdict == Verdict::not_applicable);
+  CHECK(liu(gapped(0.2, 4)).verdict == Verdict::unstable);
+  CHECK(liu(gapped(0.25, 4)).verdict == Verdict::transitional);
+  CHECK(liu(gapped(0.35, 4)).verdict == Verdict::transitional);
+  CHECK(liu(gapped(0.4, 4)).verdict == Verdict::stable);
+  // Continuous: finer than √(d70 d10), on a straight line at the mean of 0.70 and 0.10.
+  CHECK(liu(straight(1e-4, 2)).value == Approx(0.4));
+}
+
+TEST_CASE("Li and Fannin: the stricter line, and the note with the other reading") {
+  // Straight, H = 0.602/D. D = 3.5: H = 0.172 beats 0.15 at small F but not F = 0.2.
+  const CriterionResult strict = li_fannin(straight(1e-4, 3.5));
+  CHECK(strict.value == Approx(std::log10(4) / 3.5 / 0.2));
+  CHECK(strict.verdict == Verdict::unstable);
+  CHECK_THAT(strict.note, Catch::Contains("H/min(0.15, F): stable"));
+  CHECK(li_fannin(straight(1e-4, 2)).verdict == Verdict::stable);
+}
+
+TEST_CASE("Wan and Fell: logistic form and slopes") {
+  const CriterionResult clean = wan_fell_probability(straight(1e-4, 1));
+  // h' = 10^0.3, log h'' = 0.75, no silt
+  const double z = 3.875 * 0.75 - 3.591 * std::pow(10, 0.3) + 2.436;
+  CHECK(clean.value == Approx(std::exp(z) / (1 + std::exp(z))));
+  const CriterionResult silty = wan_fell_probability(straight(1e-5, 3));
+  const double z_silty = 2.378 * 2.25 - 3.648 * std::pow(10, 0.9) + 3.701;
+  CHECK(silty.value == Approx(std::exp(z_silty) / (1 + std::exp(z_silty))));
+  // Slopes of a straight line: 30/(0.3 D) = 100/D and 15/(0.15 D) = 100/D.
+  CHECK(wan_fell_slopes(straight(1e-5, 2)).value == Approx(50));
+  CHECK(wan_fell_slopes(straight(1e-5, 2)).verdict == Verdict::stable);
+  // Steep coarse end (30/log 1.2 = 379), flat fines (15/log 10 = 15): unstable.
+  CHECK(wan_fell_slopes(Grading::from_curve(Points{
+                            {0.5e-5, 0}, {1e-5, 0.05}, {1e-4, 0.2}, {1e-3, 0.6}, {1.2e-3, 0.9}, {1.5e-3, 1}}))
+            .verdict == Verdict::unstable);
+}
+
+TEST_CASE("the thesis's Table 4.1: 8b from the bins of Appendix A") {
+  const Grading sample = appendix("A");
+  CHECK(minimum_shape_ratio(sample).ratio == Approx(1.590).margin(5e-4));  // printed to three decimals
+  CHECK(minimum_shape_ratio(sample).finer == Approx(0.30));
+  // Printed 2.810; ours 2.819: the bins carry three digits, and half a class (6 %) is the resolution of the
+  // ends.
+  CHECK(maximum_split_ratio(sample).ratio == Approx(2.810).epsilon(0.005));
+}
+
+TEST_CASE("the thesis's Table 4.1: 11a from the bins of Appendix B") {
+  const Grading sample = appendix("B");
+  CHECK(minimum_shape_ratio(sample).ratio == 0);  // printed 0
+  // Printed 6.620. The bins of Appendix B are unevenly spaced, 15 % at the smallest size, and half of that is
+  // the resolution of the ends; ours 6.92.
+  CHECK(maximum_split_ratio(sample).ratio == Approx(6.620).epsilon(0.075));
+}
+
+TEST_CASE("every criterion has a limit, a verdict, and a source in the bibliography") {
+  std::ifstream file(SUFFUSE_REFERENCES);
+  const std::string bibliography{std::istreambuf_iterator<char>(file), {}};
+  ConstrictionOptions with_porosity;
+  with_porosity.porosity = 0.3;
+  auto results = grading_criteria(appendix("A"));
+  CHECK(results.size() == 14);
+  for (const CriterionResult& more :
+       constriction_criteria(analyse_constrictions(appendix("A"), with_porosity), with_porosity))
+    results.push_back(more);
+  CHECK(results.size() == 14 + 8);
+  for (const CriterionResult& result : results) {
+    CHECK_THAT(bibliography, Catch::Contains("{" + result.source + ","));
+    CHECK_FALSE(result.limit.empty());
+    CHECK((result.verdict == Verdict::not_applicable) == std::isnan(result.value));
+  }
+}
