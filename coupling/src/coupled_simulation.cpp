@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
@@ -59,6 +60,10 @@ class Stopwatch {
 
 Vec3 vector_at(const double* values, int n) {
   return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
+}
+
+Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>> coefficients(const GrainArrays& grains) {
+  return {grains.coefficient, grains.total, Eigen::InnerStride<>(grains.coefficient_stride)};
 }
 
 /// Maps the spheres to the rows that the fluid is about to sweep, and adds up what they received after it.
@@ -117,11 +122,33 @@ void CoupledSimulation::map() {
   mapping_.write();
 }
 
+bool SeenGrains::same(const GrainArrays& grains) const {
+  if (static_cast<std::size_t>(grains.total) != ids_.size()) return false;
+  const auto equal = [&](const auto* now, const auto& then, std::size_t each) {
+    return std::memcmp(now, then.data(), each * ids_.size() * sizeof(*now)) == 0;
+  };
+  return equal(grains.position, positions_, 3) && equal(grains.velocity, velocities_, 3) &&
+         equal(grains.angular_velocity, spins_, 3) && equal(grains.radius, radii_, 1) &&
+         equal(grains.id, ids_, 1) && coefficients(grains) == coefficients_;
+}
+
+void SeenGrains::keep(const GrainArrays& grains) {
+  positions_.assign(grains.position, grains.position + 3 * grains.total);
+  velocities_.assign(grains.velocity, grains.velocity + 3 * grains.total);
+  spins_.assign(grains.angular_velocity, grains.angular_velocity + 3 * grains.total);
+  radii_.assign(grains.radius, grains.radius + grains.total);
+  ids_.assign(grains.id, grains.id + grains.total);
+  coefficients_ = coefficients(grains);
+}
+
 void CoupledSimulation::place_spheres() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.mapping);
-  read_spheres(grains);
-  remapped_ = mapping_.place(spheres_);
+  remapped_ = 0;
+  if (settings_.solids.remap_distance < 0 || !seen_.same(grains)) {
+    read_spheres(grains);
+    remapped_ = mapping_.place(spheres_);
+  }
   if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
   mapping_.write();
   survey(grains);
@@ -168,6 +195,7 @@ void CoupledSimulation::survey(const GrainArrays& grains) {
 }
 
 void CoupledSimulation::read_spheres(const GrainArrays& grains) {
+  seen_.keep(grains);
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));

@@ -111,20 +111,6 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
   mapped.z_end = outside ? begin[2] : end[2];
 }
 
-/// To the last digit: the quick answer for grains at rest.
-bool SolidMapping::nothing_changed(const std::vector<LatticeSphere>& spheres) const {
-  if (spheres.size() != placed_.size()) return false;
-  bool same = true;
-  for (std::size_t n = 0; n < spheres.size() && same; ++n) {
-    const LatticeSphere &now = spheres[n], &then = placed_[n];
-    for (int a = 0; a < 3; ++a)
-      same &= (now.position[a] == then.position[a]) & (now.velocity[a] == then.velocity[a]) &
-              (now.angular_velocity[a] == then.angular_velocity[a]);
-    same &= (now.radius == then.radius) & (now.coefficient == then.coefficient) & (now.id == then.id);
-  }
-  return same;
-}
-
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {
   if (spheres.size() != placed_.size()) return false;
   for (std::size_t n = 0; n < spheres.size(); ++n) {
@@ -215,7 +201,6 @@ void SolidMapping::for_each_block(const Visit& visit) const {
 }
 
 std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
-  if (nothing_changed(spheres)) return 0;
   std::size_t count = 0;
   if (!same_list(spheres)) {
     placed_ = spheres;

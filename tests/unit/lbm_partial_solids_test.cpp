@@ -16,14 +16,19 @@ namespace {
 // Rows of 21 cells: a pack without any solid, full packs and a remainder for every register width.
 constexpr Index3 kCells{21, 4, 5};
 
+/// What a float holds of it. A function of its own: GCC 12 vectorises the way to float and back away.
+[[gnu::noinline]] double rounded_to_float(double value) {
+  return static_cast<float>(value);
+}
+
 /// Some cells clear, some whole, some over-full, moving in all directions. Rounded to what a float holds.
 PartialSolidCell random_solids(const Index3& cell, double coefficient) {
   PartialSolidCell solids;
   if (cell[1] == 0 || noise(cell, 0, 5) < -0.3) return solids;
   solids.fraction = std::round(1e4 * std::abs(1.2 * noise(cell, 1, 5))) / 8192;
-  solids.strength = static_cast<float>(coefficient * solids.fraction);
+  solids.strength = rounded_to_float(coefficient * solids.fraction);
   for (int a = 0; a < 3; ++a)
-    solids.momentum[a] = static_cast<float>(0.02 * solids.strength * noise(cell, 2 + a, 5));
+    solids.momentum[a] = rounded_to_float(0.02 * solids.strength * noise(cell, 2 + a, 5));
   return solids;
 }
 

@@ -61,7 +61,6 @@ class SolidMapping {
 
  private:
   void set_place(const LatticeSphere& sphere, MappedSphere& mapped) const;
-  bool nothing_changed(const std::vector<LatticeSphere>& spheres) const;
   bool same_list(const std::vector<LatticeSphere>& spheres) const;
   bool moved(const LatticeSphere& now, const LatticeSphere& then) const;
   void mark(const MappedSphere& mapped);
