@@ -213,8 +213,8 @@ void LbmCommand::build() {
   }
 }
 
-/// Films between grains as LIGGGHTS's business (docs/reference/fix_lubrication.md), unless the script has a fix
-/// of its own. The lattice resolves what is wider than two thirds of a cell; films end at the grains'
+/// Films between grains as LIGGGHTS's business (docs/reference/fix_lubrication.md), unless the script has a
+/// fix of its own. The lattice resolves what is wider than two thirds of a cell; films end at the grains'
 /// roughness, a thousandth of the smallest radius.
 void LbmCommand::add_lubrication(const CoupledSimulation& simulation) {
   for (int i = 0; i < lmp_->modify->nfix; ++i)
