@@ -16,22 +16,32 @@ using namespace micromechanics;
 
 constexpr const char* kMeasured = "Z and alpha, measured";
 
-/// The groups and what is in them, in the order of the report.
+/// The groups, what is in them, and why these may differ among themselves; in the order of the report.
 struct GroupOfCriteria {
   const char* name;
   std::vector<std::string_view> criteria;
+  const char* why;
 };
 const std::vector<GroupOfCriteria>& criteria_by_group() {
   static const std::vector<GroupOfCriteria> groups{
-      {"sizes of both parts of the grading", {"Kezdi", "Sherard", "Chapuis, Kezdi's slope"}},
+      {"sizes of both parts of the grading",
+       {"Kezdi", "Sherard", "Chapuis, Kezdi's slope"},
+       "Sherard allows 5 where Kezdi allows 4, and Chapuis reads Kezdi's criterion from the slope alone"},
       {"shape of the curve",
-       {"Lubochkov", "Kenney and Lau", "Chapuis, Kenney and Lau's slope", "Li and Fannin"}},
-      {"gap, fines, uniformity", {"USACE", "Istomina", "Honjo", "Liu"}},
-      {"ratios of coarse and fine sizes", {"Burenkova", "Wan and Fell, probability", "Wan and Fell, slopes"}},
+       {"Lubochkov", "Kenney and Lau", "Chapuis, Kenney and Lau's slope", "Li and Fannin"},
+       "Lubochkov looks at neighbouring parts of the curve and is sharp at any gap; Li and Fannin take the stricter of two lines"},
+      {"gap, fines, uniformity",
+       {"USACE", "Istomina", "Honjo", "Liu"},
+       "each knows one number: Istomina d60/d10, Honjo the gap, Liu the fines content"},
+      {"ratios of coarse and fine sizes",
+       {"Burenkova", "Wan and Fell, probability", "Wan and Fell, slopes"},
+       "they were drawn from tests on broadly graded soils, each in its own way"},
       {"constriction sizes",
        {"Kovacs", "Indraratna 2007, filter", "Indraratna 2011", "Chapter 4 of the thesis", "Indraratna 2015",
-        "Israr and Indraratna 2017, cyclic"}},
-      {"Z and alpha, predicted", {"Z by eq 4.7", "Stress reduction by eq 4.8"}}};
+        "Israr and Indraratna 2017, cyclic"},
+       "Kovacs's mean pore follows from the porosity, the others look at the discs between grains, with limits from 0.73 to 1 "
+       "and at different densities"},
+      {"Z and alpha, predicted", {"Z by eq 4.7", "Stress reduction by eq 4.8"}, "both are fits that scatter"}};
   return groups;
 }
 
@@ -115,16 +125,30 @@ const CriterionResult* find(const std::vector<CriterionResult>& results, std::st
   return at == results.end() ? nullptr : &*at;
 }
 
+/// "Indraratna 2007 (filter)": commas are for lists.
+std::string in_list(const std::string& criterion) {
+  const std::size_t comma = criterion.find(", ");
+  if (comma == std::string::npos) return criterion;
+  return fmt::format("{} ({})", criterion.substr(0, comma), criterion.substr(comma + 2));
+}
+
 std::string named(const CriteriaGroup& group, Verdict verdict) {
   std::string text;
   for (const CriterionResult& result : group.results)
-    if (result.verdict == verdict) text += (text.empty() ? "" : "; ") + result.criterion;
+    if (result.verdict == verdict)
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", in_list(result.criterion));
   return text;
+}
+
+const char* why_divided(const CriteriaGroup& group) {
+  for (const GroupOfCriteria& known : criteria_by_group())
+    if (group.name == known.name) return known.why;
+  return "";
 }
 
 constexpr std::array<Verdict, 3> kVerdicts{Verdict::stable, Verdict::transitional, Verdict::unstable};
 
-/// "stable by Kezdi; Sherard, unstable by Chapuis, …": of one group.
+/// "stable by Kezdi, Sherard; unstable by Chapuis (Kezdi's slope)": of one group.
 std::string division(const CriteriaGroup& group) {
   std::string text;
   for (const Verdict verdict : kVerdicts)
@@ -289,7 +313,7 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
   for (const CriteriaGroup& group : findings.groups) {
     const bool applies = group.count(Verdict::not_applicable) < group.results.size();
     if (applies && !group.common() && group.name != kMeasured)
-      sentences.push_back(fmt::format("Divided on {}: {}.", group.name, division(group)));
+      sentences.push_back(fmt::format("Divided on {}: {}. Why: {}.", group.name, division(group), why_divided(group)));
   }
   const std::optional<Verdict> by_sizes = leaning(findings.grading),
                                by_pores = leaning(findings.constriction);
