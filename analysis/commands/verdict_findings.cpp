@@ -29,7 +29,8 @@ const std::vector<GroupOfCriteria>& criteria_by_group() {
        "Sherard allows 5 where Kezdi allows 4, and Chapuis reads Kezdi's criterion from the slope alone"},
       {"shape of the curve",
        {"Lubochkov", "Kenney and Lau", "Chapuis, Kenney and Lau's slope", "Li and Fannin"},
-       "Lubochkov looks at neighbouring parts of the curve and is sharp at any gap; Li and Fannin take the stricter of two lines"},
+       "Lubochkov looks at neighbouring parts of the curve and is sharp at any gap; Li and Fannin take the "
+       "stricter of two lines"},
       {"gap, fines, uniformity",
        {"USACE", "Istomina", "Honjo", "Liu"},
        "each knows one number: Istomina d60/d10, Honjo the gap, Liu the fines content"},
@@ -39,9 +40,12 @@ const std::vector<GroupOfCriteria>& criteria_by_group() {
       {"constriction sizes",
        {"Kovacs", "Indraratna 2007, filter", "Indraratna 2011", "Chapter 4 of the thesis", "Indraratna 2015",
         "Israr and Indraratna 2017, cyclic"},
-       "Kovacs's mean pore follows from the porosity, the others look at the discs between grains, with limits from 0.73 to 1 "
+       "Kovacs's mean pore follows from the porosity, the others look at the discs between grains, with "
+       "limits from 0.73 to 1 "
        "and at different densities"},
-      {"Z and alpha, predicted", {"Z by eq 4.7", "Stress reduction by eq 4.8"}, "both are fits that scatter"}};
+      {"Z and alpha, predicted",
+       {"Z by eq 4.7", "Stress reduction by eq 4.8"},
+       "both are fits that scatter"}};
   return groups;
 }
 
@@ -313,7 +317,8 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
   for (const CriteriaGroup& group : findings.groups) {
     const bool applies = group.count(Verdict::not_applicable) < group.results.size();
     if (applies && !group.common() && group.name != kMeasured)
-      sentences.push_back(fmt::format("Divided on {}: {}. Why: {}.", group.name, division(group), why_divided(group)));
+      sentences.push_back(
+          fmt::format("Divided on {}: {}. Why: {}.", group.name, division(group), why_divided(group)));
   }
   const std::optional<Verdict> by_sizes = leaning(findings.grading),
                                by_pores = leaning(findings.constriction);
