@@ -72,6 +72,8 @@ void check(const Options& options) {
     throw_user_error({kWho, "--alpha", fmt::format("{:g}", *options.alpha), "be >= 0", ""});
   if (options.no_figures && !options.figures.empty())
     throw_user_error({kWho, "--figures", options.figures, "not stand beside --no-figures", ""});
+  if (!options.figures.empty() && files::exists(options.figures) && !files::is_directory(options.figures))
+    throw_user_error({kWho, "--figures", options.figures, "be a folder", "this is a file"});
   if (!options.split.text.empty() && options.read.files.empty())
     throw_user_error({kWho, "--split", options.split.text, "have a sample", "add --sample"});
 }

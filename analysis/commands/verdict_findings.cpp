@@ -299,9 +299,9 @@ std::vector<std::string> agreement_sentences(const VerdictFindings& findings) {
     other += group.count(Verdict::not_applicable);
   }
   std::vector<std::string> sentences{
-      fmt::format("Of {} criteria that apply, {} say stable, {} transitional, {} unstable; {} do not apply. "
-                  "Many look at the "
-                  "same thing, so this is no vote.",
+      fmt::format("{} criteria apply: stable {}, transitional {}, unstable {}; {} do not apply. Many look at "
+                  "the same thing, "
+                  "so this is no vote.",
                   stable + transitional + unstable, stable, transitional, unstable, other)};
   for (const Verdict verdict : kVerdicts) {
     std::string names;

@@ -28,7 +28,7 @@ def draw_distribution(series, grading, options):
         return [1e6 * size for size in series[column]]
 
     for key, name, colour in FRACTIONS:
-        if f"dense_by_{key}_m" not in series:
+        if key not in options.fractions or f"dense_by_{key}_m" not in series:
             continue
         colour = style.COLOURS[colour]
         if key == "surface_area":
@@ -36,7 +36,12 @@ def draw_distribution(series, grading, options):
                                linewidth=0, label="three to four grains, by surface area")
         axes.plot(micrometres(f"at_density_by_{key}_m"), percent, color=colour, label=f"at the relative density, by {name}")
     if "packing_m" in series:
-        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label="of the packing, by number")
+        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label=options.packing_name)
+    for path, colour, line in zip(options.others, ("purple", "sky"), ("--", "-.")):
+        other = TimeSeries(path)
+        other.require("packing_m", "percent_finer")
+        axes.plot([1e6 * size for size in other["packing_m"]], other["percent_finer"], color=style.COLOURS[colour], linestyle=line,
+                  label=options.other_names.pop(0) if options.other_names else pathlib.Path(path).stem)
     if grading:
         axes.plot([1e6 * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
     axes.axhline(35, **style.REFERENCE)
@@ -75,8 +80,11 @@ def draw_prediction(predictions, names, measured, options):
     axes.axvspan(0, 1, color="#808080", alpha=0.10, linewidth=0)
     axes.axhspan(0, 0.5, color="#808080", alpha=0.10, linewidth=0)
     axes.fill_between([0, 1], 0, 0.5, color="#808080", alpha=0.15, linewidth=0)
-    axes.annotate("unstable", xy=(0.03, 0.94), xycoords="axes fraction", fontsize=8, color=style.REFERENCE["color"])
-    axes.set(xlabel="coordination number Z (−)", ylabel="stress reduction factor α (−)", xlim=(0, 6.5), ylim=(0, 2))
+    axes.annotate("unstable", xy=(0.5, 0.97), xycoords=("data", "axes fraction"), rotation=90, ha="center", va="top", fontsize=8,
+                  color=style.REFERENCE["color"])
+    highest = [max([limit] + [value for _, series in measured for value in [series.last(column)]])
+               for limit, column in ((6, "coordination_number"), (1.85, "alpha_pair_halves"))]
+    axes.set(xlabel="coordination number Z (−)", ylabel="stress reduction factor α (−)", xlim=(0, 1.08 * highest[0]), ylim=(0, 1.08 * highest[1]))
     axes.legend(fontsize=7, loc="lower right")
     style.save(figure, options.output)
 
@@ -85,6 +93,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--distribution", help="CSV file of constriction sizes")
     parser.add_argument("--grading", help="CSV file of the grading's curve, to draw beside them")
+    parser.add_argument("--packing-name", default="of the packing, by number", help="what the packing's own constrictions are called")
+    parser.add_argument("--others", nargs="+", default=[], help="distributions of other packings, two at most")
+    parser.add_argument("--other-names", nargs="+", default=[], help="what they are called")
+    parser.add_argument("--fractions", nargs="+", default=[key for key, _, _ in FRACTIONS], choices=[key for key, _, _ in FRACTIONS],
+                        help="which probabilities of the classes to draw")
     parser.add_argument("--prediction", nargs="+", default=[], help="CSV files of Z and alpha over the relative density")
     parser.add_argument("--measured", nargs="+", default=[], help="CSV files of measured contacts")
     parser.add_argument("--names", nargs="+", help="what the soils are called; their files' names if not given")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""analyse_verdict.py --analyse PROGRAM --gradings DIR --figures DIR
+"""analyse_verdict.py --analyse PROGRAM --gradings DIR --figures DIR --documents DIR
 
 `suffuse-analyse verdict`: the words on soils whose answer is known (unstable, stable, divided), a sample that can be computed by
 hand, the HTML page (well-formed, self-contained), figures that their printed command draws again, and bad input.
@@ -10,7 +10,7 @@ import html.parser
 import os
 import pathlib
 import re
-import shutil
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -23,6 +23,17 @@ VOID_ELEMENTS = {"meta", "img"}
 def check(condition, message):
     if not condition:
         sys.exit("FAILED: " + message)
+
+
+def python_with_figures():
+    """As the program itself looks for one."""
+    for python in ("python3", "/usr/bin/python3"):
+        try:
+            if subprocess.run([python, "-c", "import matplotlib"], capture_output=True).returncode == 0:
+                return python
+        except OSError:
+            pass
+    return None
 
 
 class Program:
@@ -72,7 +83,7 @@ def check_words(program, gradings):
     # Well graded, Cu = 5: what every criterion was made to pass, but for Kovacs's, which needs the porosity.
     program.folder.joinpath("well.csv").write_text("diameter_mm,percent_finer\n0.1,0\n0.15,10\n0.3,35\n0.6,60\n1.2,82\n2.4,100\n")
     stable = program.must_run("well.csv", "--relative-density", 0.7)
-    must_say(stable, "Internally stable by the constriction criterion of chapter 4", "19 say stable, 0 transitional, 0 unstable",
+    must_say(stable, "Internally stable by the constriction criterion of chapter 4", "19 criteria apply: stable 19, transitional 0, unstable 0",
              "None: all groups of criteria are of one mind.", "this one has no gap")
     # 8b (Appendix A): stable by Table 4.1, but some criteria on sizes say otherwise, and Kovacs's.
     divided = program.must_run(gradings / "appendix_A.csv", "--relative-density", 0.5, "--porosity", 0.25, "--top-stress", 1e4, "--thickness", 0.1)
@@ -157,7 +168,7 @@ class Page(html.parser.HTMLParser):
         self.text += data
 
 
-def check_page(program, gradings, figures):
+def check_page(program, gradings, figures, python):
     write_sample(program.folder, 7)
     words = (gradings / "appendix_B.csv", "--sample", "grains.dump", "contacts.dump", "--split", 0.5e-3, "--name", "a <b> & \"c\"")
     program.must_run(*words, "--html", "report.html", "--output", "report.md", "--figures", "kept")
@@ -179,13 +190,32 @@ def check_page(program, gradings, figures):
     check(len(links) == 5 and all((program.folder / link).is_file() for link in links), f"Markdown's figures are there: {links}")
     # One of the commands in the captions draws the same figure again from its CSV.
     command = re.search(r"`analysis/figures/(forces\.py [^`]+)`", markdown)[1].split()
-    again = [sys.executable, figures / command[0], *command[1:-1], "again.svg"]
-    if shutil.which("python3") and subprocess.run([sys.executable, "-c", "import matplotlib"], capture_output=True).returncode == 0:
-        done = subprocess.run(again, cwd=program.folder / "kept", capture_output=True, text=True, timeout=120)
-        check(done.returncode == 0, f"{again}: {done.stderr}")
-        check((program.folder / "kept/again.svg").read_bytes() == (program.folder / "kept/forces.svg").read_bytes(), "the same figure again")
+    again = [python, figures / command[0], *command[1:-1], "again.svg"]
+    done = subprocess.run(again, cwd=program.folder / "kept", capture_output=True, text=True, timeout=120)
+    check(done.returncode == 0, f"{again}: {done.stderr}")
+    check((program.folder / "kept/again.svg").read_bytes() == (program.folder / "kept/forces.svg").read_bytes(), "the same figure again")
     program.must_run(*words, "--html", "bare.html", "--no-figures")
     check("<img" not in (program.folder / "bare.html").read_text(encoding="utf-8"), "--no-figures leaves figures out")
+
+
+def check_example(program, gradings, documents):
+    """The report in the documentation is what its command gives."""
+    page = (documents / "verdict.md").read_text(encoding="utf-8")
+    options = re.search(r"verdict input_scripts/gradings/appendix_B.csv (.*) --output docs/analysis/verdict_example.md", page)[1]
+    report = program.must_run(gradings / "appendix_B.csv", *shlex.split(options))
+    check(report == (documents / "verdict_example.md").read_text(encoding="utf-8"), "docs/analysis/verdict_example.md is out of date")
+
+
+def check_layers(program, figures, python):
+    """Profiles from a monitor's columns; what has no layers is told."""
+    (program.folder / "flow.csv").write_text("time_s,porosity_layer_1,porosity_layer_2,pressure_layer_1_pa,pressure_layer_2_pa,bed_1\n"
+                                             "0,0.4,0.38,0,100,1\n0.1,0.45,0.39,0,90,1\n")
+    draw = [python, figures / "layers.py", "flow.csv", "--output", "layers.svg"]
+    done = subprocess.run(draw, cwd=program.folder, capture_output=True, text=True, timeout=120)
+    check(done.returncode == 0 and (program.folder / "layers.svg").is_file(), f"layers.py: {done.stderr}")
+    for quantity in ("bed", "stress"):
+        done = subprocess.run([*draw, "--quantities", quantity], cwd=program.folder, capture_output=True, text=True, timeout=120)
+        check(done.returncode == 1 and "porosity_layer, pressure_layer_pa" in done.stderr, f"layers.py without {quantity}: {done.stderr}")
 
 
 def check_mistakes(program, gradings):
@@ -218,15 +248,20 @@ def main():
     parser.add_argument("--analyse", required=True)
     parser.add_argument("--gradings", required=True, type=pathlib.Path)
     parser.add_argument("--figures", required=True, type=pathlib.Path)
+    parser.add_argument("--documents", required=True, type=pathlib.Path)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         program = Program(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder))
         gradings = options.gradings.resolve()
         check_words(program, gradings)
         check_sample(program, gradings)
-        check_page(program, gradings, options.figures.resolve())
+        check_example(program, gradings, options.documents.resolve())
+        python = python_with_figures()
+        if python:
+            check_page(program, gradings, options.figures.resolve(), python)
+            check_layers(program, options.figures.resolve(), python)
         check_mistakes(program, gradings)
-    print("analyse_verdict: in order")
+    print("analyse_verdict: in order" + ("" if python else "; no matplotlib, no figures"))
 
 
 if __name__ == "__main__":
