@@ -6,6 +6,7 @@
 
 #include "commands/constriction_command.h"
 #include "commands/contacts_command.h"
+#include "commands/fluidisation_command.h"
 #include "commands/grading_command.h"
 #include "commands/hydraulic_command.h"
 #include "commands/reproduce_command.h"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_grading(app);
   suffuse::analysis::add_constriction(app);
   suffuse::analysis::add_hydraulic(app);
+  suffuse::analysis::add_fluidisation(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
   suffuse::analysis::add_verdict(app);

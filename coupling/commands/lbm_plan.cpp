@@ -24,8 +24,10 @@ class HeldGrains final : public ParticlePort {
  public:
   explicit HeldGrains(ParticlePort& port) : port_(port) {}
   GrainArrays grains() override { return port_.grains(); }
-  void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
-  GrainMemory memory() override { return {}; }
+  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override {
+    port_.sum_over_copies(force, torque);
+  }
+  GrainMemory memory() override { return port_.memory(); }  // coefficients are kept there, as a run would
   bool reads_loads(int) override { return false; }
   double time_step() const override { return port_.time_step(); }
   void advance(int) override {}

@@ -33,6 +33,7 @@ constexpr const char* kGrains[] = {
     "region box block 0 8e-3 0 8e-3 0 16e-3 units box",
     "create_box 1 box",
     "neighbor 1e-4 bin",
+    "neigh_modify delay 0",
     "fix e all property/global youngsModulus peratomtype 5e6",
     "fix nu all property/global poissonsRatio peratomtype 0.3",
     "fix cor all property/global coefficientRestitution peratomtypepair 1 0.7",

@@ -23,7 +23,7 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
   }
   const double density = settings.collision.incompressible ? 1 : 1 + deviation;
   const PartialSolidCell solids = partial_solid(x, y, z);
-  // Strengths are rounded more coarsely than fractions: the slightest may be zero.
+  // A grain may cover so little of a cell that its strength is rounded to nothing.
   if (!(solids.strength > 0)) return {1 + deviation, momentum / density};
   // What the cell's fluid and solids move at together: the drag's half step (force form) or the share of each
   // collision gives the same mean (docs key: nobletorczynski1998).

@@ -154,7 +154,7 @@ PartialCollision reference_partial_collision(const CellPopulations& populations,
                                              const CollisionSettings& settings, const Vec3& force,
                                              const PartialSolidSettings& partial,
                                              const PartialSolidCell& solids) {
-  if (!(solids.fraction > 0)) return {reference_collision(populations, settings, force), Vec3::Zero()};
+  if (!(solids.strength > 0)) return {reference_collision(populations, settings, force), Vec3::Zero()};
   const double weight = solid_weight(partial, solids, settings.relaxation_time);
   const Vec3 us = solids.momentum / solids.strength;
   double density = 0;

@@ -56,7 +56,7 @@ FluidPoint ReferenceFluid::at(const Index3& cell) const {
   }
   const Vec3 velocity = settings_.collision.incompressible ? momentum : Vec3(momentum / density);
   const PartialSolidCell& solids = solids_[index(cell)];
-  if (!partial_ || !(solids.fraction > 0)) return {density, velocity};
+  if (!partial_ || !(solids.strength > 0)) return {density, velocity};
   const double weight = solid_weight(*partial_, solids, settings_.collision.relaxation_time);
   return {density, (1 - weight) * velocity + weight * solids.momentum / solids.strength};
 }

@@ -13,10 +13,15 @@
 
 namespace suffuse::coupling::test {
 
-/// How solids are treated when a script says nothing: the one place where the tests choose it. `diameter` in
-/// cells, `share` of the neighbourhood that is solid; the coefficient follows the trend of the force form's
-/// best values on periodic arrays.
-inline SolidSettings default_solids(double diameter, double share = 0) {
+/// How solids are treated when a script says nothing, the coefficient found from the pores around each
+/// sphere.
+inline SolidSettings default_solids() {
+  return {};
+}
+
+/// The same with a coefficient that depends on the diameter (cells) and the share of the neighbourhood that
+/// is solid alone.
+inline SolidSettings fixed_solids(double diameter, double share = 0) {
   SolidSettings solids;
   solids.automatic_coefficient = false;
   solids.cells.coefficient = 1.35 + (6.5 + 6 * share + 54 * share * share) / diameter;

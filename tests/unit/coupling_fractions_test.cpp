@@ -32,7 +32,7 @@ double covered_volume(const Vec3& centre, double radius) {
 }
 
 SolidSettings with(FractionMethod method) {
-  SolidSettings solids = default_solids(5);
+  SolidSettings solids = fixed_solids(5);
   solids.fraction = method;
   solids.remap_distance = 0;
   return solids;

@@ -50,7 +50,7 @@ double signature(Scene& scene) {
 
 TEST_CASE("loads do not depend on the number of ranks, nor on which copy of the box a sphere is in") {
   const auto run = [](double shift, MPI_Comm communicator) {
-    CoupledSettings settings = lattice_settings(0.7, default_solids(5));
+    CoupledSettings settings = lattice_settings(0.7, fixed_solids(5));
     settings.pressure_gradient = Vec3(1e-5, 0, 2e-5);
     auto list = awkward_grains();
     for (auto& grain : list)
@@ -64,15 +64,16 @@ TEST_CASE("loads do not depend on the number of ranks, nor on which copy of the 
     return signature(scene);
   };
   const double here = run(0, MPI_COMM_WORLD);
-  // On this rank alone. Sums over ranks add up in another order: round-off of some 1e4 terms of 1e-16.
-  CHECK(here == Approx(run(0, MPI_COMM_SELF)).epsilon(1e-11));
+  // On this rank alone. The solids' velocities in shared cells are summed in float, in an order that depends
+  // on the ranks: 6e-8 of a velocity; measured 3e-8 of the loads on four ranks.
+  CHECK(here == Approx(run(0, MPI_COMM_SELF)).epsilon(5e-7));
   // A shift by whole cells moves every sphere to other ranks and through other faces. Positions of that size
   // are rounded to 4e-7 cells in the mapping's floats.
   CHECK(run(7, MPI_COMM_WORLD) == Approx(here).epsilon(1e-5));
 }
 
 TEST_CASE("overlapping spheres fill their cells once and share the force, equal ones equally") {
-  CoupledSettings settings = lattice_settings(0.8, default_solids(5));
+  CoupledSettings settings = lattice_settings(0.8, fixed_solids(5));
   settings.pressure_gradient = Vec3(0, 0, 1e-5);
   const Vec3 centre(10.2, 9.1, 11.3);
   Scene alone(settings, kBox, {sphere_at(centre, 2.5)});
@@ -93,7 +94,7 @@ TEST_CASE("overlapping spheres fill their cells once and share the force, equal 
 }
 
 TEST_CASE("grains that come and go leave no solid behind, and no mass") {
-  CoupledSettings settings = lattice_settings(0.6, default_solids(5));
+  CoupledSettings settings = lattice_settings(0.6, fixed_solids(5));
   settings.pressure_gradient = Vec3(0, 1e-5, 0);
   Scene scene(settings, kBox, {sphere_at(Vec3(0.2, 9, 11), 2.5), sphere_at(Vec3(12.3, 3, 21.9), 3)});
   scene.grains.mobile = true;
@@ -116,7 +117,7 @@ TEST_CASE("grains that come and go leave no solid behind, and no mass") {
 }
 
 TEST_CASE("only grains that moved are mapped again") {
-  CoupledSettings settings = lattice_settings(0.8, default_solids(5));
+  CoupledSettings settings = lattice_settings(0.8, fixed_solids(5));
   Scene scene(settings, kBox, {sphere_at(Vec3(5, 9, 5), 2.5), sphere_at(Vec3(14, 9, 14), 2.5)});
   scene.run(1);
   CHECK(scene.simulation->remapped() == 2);
