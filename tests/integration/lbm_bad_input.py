@@ -72,6 +72,9 @@ CASES = [
     (WET + "lbm boundary zlo velocity 0 0 v_fast zhi pressure 0\nvariable fast equal 100\n", ["v_fast", "no such variable"]),
     (WET + "variable fast equal 100*step\nlbm boundary zlo velocity 0 0 v_fast zhi pressure 0\nlbm run 1\n",
      ["velocity", "speed of sound"]),
+    (WET + "shell touch empty.h5\nlbm restart read empty.h5\n" + RUN, ["empty.h5", "readable HDF5 file"]),
+    (WET + "lbm output o every 1 file o.h5 density\n" + RUN + "lbm clear\n" + WATER + "lbm restart read o.h5\n" + RUN,
+     ["o.h5", "hold a saved state"]),
 ]
 
 
