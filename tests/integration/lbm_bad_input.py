@@ -75,6 +75,9 @@ CASES = [
     (WET + "shell touch empty.h5\nlbm restart read empty.h5\n" + RUN, ["empty.h5", "readable HDF5 file"]),
     (WET + "lbm output o every 1 file o.h5 density\n" + RUN + "lbm clear\n" + WATER + "lbm restart read o.h5\n" + RUN,
      ["o.h5", "hold a saved state"]),
+    (FEW + WATER.replace("0.000125", "1e-9") + RUN, ["spacing = 1e-09", "cells along an axis"]),
+    (wet_box(grains=0, boundary="f f f") + "region out block 1 2 1 2 1 2 units box\n" +
+     WATER.replace("0.515", "0.515 region out") + RUN, ["size along x", "lie in the box"]),
 ]
 
 
