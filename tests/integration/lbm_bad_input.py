@@ -78,6 +78,10 @@ CASES = [
     (FEW + WATER.replace("0.000125", "1e-9") + RUN, ["spacing = 1e-09", "cells along an axis"]),
     (wet_box(grains=0, boundary="f f f") + "region out block 1 2 1 2 1 2 units box\n" +
      WATER.replace("0.515", "0.515 region out") + RUN, ["size along x", "lie in the box"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv layers 1 2 3 layer_porosity\n" + RUN, ["layers = 1 2", "lie in the fluid"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv layers 0 4e-3 100 layer_porosity\n" + RUN, ["layers = 100", "at least a cell"]),
+    (WET + "variable zero equal 0\nlbm monitor m every 1e-3 file m.csv relative v_zero\n" + RUN, ["relative v_zero", "first sample"]),
+    (WET + "variable one equal 1\nlbm monitor m every 1e-3 file m.csv v_one as a,b\n", ["as = a,b", "comma"]),
 ]
 
 
