@@ -82,6 +82,7 @@ CASES = [
     (WET + "lbm monitor m every 1e-3 file m.csv layers 0 4e-3 100 layer_porosity\n" + RUN, ["layers = 100", "at least a cell"]),
     (WET + "variable zero equal 0\nlbm monitor m every 1e-3 file m.csv relative v_zero\n" + RUN, ["relative v_zero", "first sample"]),
     (WET + "variable one equal 1\nlbm monitor m every 1e-3 file m.csv v_one as a,b\n", ["as = a,b", "comma"]),
+    (WET + RUN + "unfix hydrodynamic_force\n" + RUN, ["hydrodynamic/force", "gone", "lbm clear"]),
 ]
 
 
