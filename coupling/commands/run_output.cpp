@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "lammps.h"
+#include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "write_restart.h"
 
@@ -14,8 +16,18 @@ namespace suffuse::coupling {
 
 namespace {
 
-long steps_between(double seconds, const lbm::Units& units) {
-  return std::max(1L, std::lround(units.time_to_lattice(seconds)));
+/// Tries the file before the run spends any time; leaves none behind. Collective.
+void require_writable(const std::string& who, const std::string& file, MPI_Comm communicator) {
+  int rank = 0, failed = 0;
+  MPI_Comm_rank(communicator, &rank);
+  if (rank == 0) {
+    std::error_code ignored;
+    const bool existed = std::filesystem::exists(file, ignored);
+    failed = std::ofstream(file, std::ios::app) ? 0 : 1;
+    if (!existed && failed == 0) std::filesystem::remove(file, ignored);
+  }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+  if (failed != 0) throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
 
 std::string grains_file(const std::string& file) {
@@ -26,6 +38,7 @@ std::string grains_file(const std::string& file) {
 }  // namespace
 
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
+  require_writable("lbm restart write", file + ".part", lmp->world);
   lbm::save_state(simulation.fluid(), file);
   std::string grains = file + ".grains";
   LAMMPS_NS::WriteRestart(lmp).write(grains.data());
@@ -50,6 +63,8 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (std::any_of(fields_.begin(), fields_.end(),
                     [&](const auto& open) { return open->request.id == request.id; }))
       continue;
+    for (const std::string& file : files_of(request))
+      require_writable("lbm output " + request.id, file, lmp->world);
     lbm::FieldOutputSettings fields;
     fields.path = request.file;
     fields.fields = request.fields;
@@ -59,14 +74,15 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
       return simulation.fluid().solid_fraction(cell);
     };
     fields_.push_back(std::make_unique<Fields>(Fields{request,
-                                                      steps_between(request.every, simulation.units()),
+                                                      steps_in(request.every, simulation.units()),
                                                       -1,
                                                       lbm::FieldOutput(fields, simulation.units()),
                                                       {}}));
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  checkpoint_every_ = checkpoint_ ? steps_between(checkpoint_->every, simulation.units()) : 0;
+  if (checkpoint_) require_writable("lbm restart write", checkpoint_->file + ".part", lmp->world);
+  checkpoint_every_ = checkpoint_ ? steps_in(checkpoint_->every, simulation.units()) : 0;
 }
 
 bool RunOutput::wants_values(long step) const {

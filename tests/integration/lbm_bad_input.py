@@ -83,6 +83,19 @@ CASES = [
     (WET + "variable zero equal 0\nlbm monitor m every 1e-3 file m.csv relative v_zero\n" + RUN, ["relative v_zero", "first sample"]),
     (WET + "variable one equal 1\nlbm monitor m every 1e-3 file m.csv v_one as a,b\n", ["as = a,b", "comma"]),
     (WET + RUN + "unfix hydrodynamic_force\n" + RUN, ["hydrodynamic/force", "gone", "lbm clear"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv bed\nlbm monitor n every 1e-3 file ./m.csv mass\n", ["m.csv", "lbm monitor m"]),
+    (WET + "lbm output o every 1e-3 file o.h5 grains\nlbm output p every 1e-3 file o_grains.h5\n", ["o_grains.h5", "lbm output o"]),
+    (WET + "lbm output o every 1e-3 file o.h5\nlbm restart write o.h5 every 1e-3\n", ["o.h5", "lbm output o"]),
+    (WET + "lbm output o every 1e-3 file o.xdmf\n", ["o.xdmf", "be the HDF5 file"]),
+    (WET + "lbm output o every 1e-3 file o.h5 velocity velocity\n", ["velocity = given twice"]),
+    (WET + "lbm output o every 1e-3 file nowhere/o.h5\n" + RUN, ["nowhere/o.h5", "writable"]),
+    (WET + "lbm restart write nowhere/r.h5 every 1e-3\n" + RUN, ["nowhere/r.h5", "writable"]),
+    (WET + "lbm run 1e300\n", ["time = 1e+300 s", "DEM steps"]),
+    (WET + "lbm couple substeps 5000000000\n", ["substeps = 5000000000", "at most"]),
+    (WET + "timestep 1e-15\n" + RUN, ["timestep = 1e-15 s", "millionth"]),
+    (WET + "timestep 0\n" + RUN, ["timestep = 0 s", "> 0"]),
+    (WET.replace("units si", "units cgs") + RUN, ["units = cgs", "units si"]),
+    (WET + "lbm collision bgk magic 0.2\n", ["magic", "trt"]),
 ]
 
 
