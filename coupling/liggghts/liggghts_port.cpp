@@ -158,6 +158,13 @@ bool LiggghtsPort::anything_moves() const {
   return false;
 }
 
+bool LiggghtsPort::loads_restored() const {
+  // Grains migrate, and a rank may have had none: restored on one rank is restored on all.
+  int mine[2] = {lmp_->atom->nlocal > 0 ? 1 : 0, fix_->restored() ? 1 : 0};
+  MPI_Allreduce(MPI_IN_PLACE, mine, 2, MPI_INT, MPI_MAX, lmp_->world);
+  return mine[0] == 0 || mine[1] != 0;
+}
+
 bool LiggghtsPort::reads_loads(int substeps) {
   return moves_ || lmp_->output->next <= lmp_->update->ntimestep + substeps;
 }
