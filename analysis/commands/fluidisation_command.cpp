@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "commands/criteria_table.h"
+#include "commands/fluidisation_layers.h"
 #include "commands/result_rows.h"
 #include "suffuse/analysis/flow_record.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/constraint_ratio.h"
 #include "suffuse/micromechanics/fluidisation.h"
+#include "suffuse/micromechanics/layers.h"
 #include "suffuse/micromechanics/seepage.h"
 
 namespace suffuse::analysis {
@@ -29,6 +32,7 @@ struct Options {
   std::vector<double> window{0.2, 0.8};
   FluidisationSettings settings;
   std::optional<double> porosity, height;
+  LayerOptions layers;
 };
 
 void check(const Options& options) {
@@ -48,6 +52,11 @@ void check(const Options& options) {
     must(*options.porosity > 0 && *options.porosity < 1, "--porosity", *options.porosity,
          "be between 0 and 1");
   if (options.height) must(*options.height > 0, "--height", *options.height, "be > 0");
+  must(options.layers.friction >= 0, "--friction", options.layers.friction, "be >= 0");
+  const bool writes = !options.layers.measures.empty() || !options.layers.distributions.empty();
+  if (writes && options.layers.files.empty())
+    throw_user_error({kWho, "--measures, --distributions", "without --dumps", "have dumps to be made from",
+                      "add --dumps 'grains.*.dump' 'contacts.*.dump'"});
 }
 
 /// A run, read and measured.
@@ -58,6 +67,7 @@ struct Run {
   std::size_t stages = 0;         ///< 0: a ramp
   std::vector<std::size_t> sample_of_state;
   double terzaghi = 0;
+  std::optional<double> of_all_grains;  ///< Terzaghi's, with what sticks out above the layers
   Fluidisation result;
 };
 
@@ -94,12 +104,19 @@ Run measured(const Options& options, const NumberTable& table) {
   }
   for (const FlowState& state : run.states) run.gradient.push_back(bed_gradient(state.gradient));
   run.terzaghi = critical_gradient(run.record.porosity, options.grain_density, options.fluid);
+  if (run.record.solids_over_layers)
+    run.of_all_grains =
+        critical_gradient(1 - *run.record.solids_over_layers, options.grain_density, options.fluid);
   run.result = measure_fluidisation(run.states, run.terzaghi, run.record.height, settings);
   return run;
 }
 
-std::string percent_of(double value, double reference) {
-  return fmt::format("{:+.2f} % of Terzaghi's", 100 * (value / reference - 1));
+/// How far a gradient is from Terzaghi's, and from that of all grains where it is known.
+std::string distance(const Run& run, double value) {
+  std::string text = fmt::format("{:+.2f} % of Terzaghi's", 100 * (value / run.terzaghi - 1));
+  if (run.of_all_grains)
+    text += fmt::format(", {:+.2f} % of that of all grains", 100 * (value / *run.of_all_grains - 1));
+  return text;
 }
 
 void add_state_at_rest(ResultRows& rows, const Run& run, const Options& options) {
@@ -147,15 +164,18 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
   const Fluidisation& result = run.result;
   rows.add("critical gradient, Terzaghi", "i_cr", run.terzaghi, "-", "terzaghi1943",
            "(rho_s/rho_f - 1)(1 - n) at the measured porosity");
+  if (run.of_all_grains)
+    rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
+             "with those that stick out above the height of the layers");
   if (result.stress && result.stress->slope < 0)
     rows.add("critical gradient, stress vanishes", "i_cr", result.stress->root(), "-",
-             "line of sigma' over i", percent_of(result.stress->root(), run.terzaghi));
+             "line of sigma' over i", distance(run, result.stress->root()));
   if (result.onset) {
     const OnsetOfMotion& onset = *result.onset;
     const auto [gradient, half_width] = onset_gradient(run);
     rows.add(
         "critical gradient, bed begins to move", "i_cr", gradient, "-", "rise of the centre",
-        percent_of(gradient, run.terzaghi) +
+        distance(run, gradient) +
             (run.stages > 0
                  ? fmt::format(", within {:.4f}: middle of last stable and first unstable stage", half_width)
                  : std::string()));
@@ -169,6 +189,24 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
            "porosity not printed");
   rows.add("critical gradient, thesis, semi-analytical", "i_cr", 1.133, "-", "haq, section 6.4",
            "does not follow from Terzaghi at its own porosity (needs n = 0.313)");
+}
+
+/// S² of the layers' void ratios at rest (thesis eq 6.1), with and without the bottom layer.
+void add_homogeneity(ResultRows& rows, const Run& run) {
+  std::vector<double> ratios;
+  for (const double porosity : run.record.layer_porosity) ratios.push_back(porosity / (1 - porosity));
+  if (ratios.size() < 3) return;
+  // The void ratio of layers of equal volume together, from their mean share of solids.
+  const auto together = [](std::span<const double> e) {
+    double solids = 0;
+    for (const double ratio : e) solids += 1 / (1 + ratio) / static_cast<double>(e.size());
+    return 1 / solids - 1;
+  };
+  const std::span<const double> upper(ratios.data(), ratios.size() - 1);
+  rows.add("variance of the layers' void ratios", "S2", void_ratio_variance(ratios, together(ratios)), "-",
+           "jiang2003", "thesis: 2.72e-5 in ten layers");
+  rows.add("  without the bottom layer", "S2", void_ratio_variance(upper, together(upper)), "-", "jiang2003",
+           "");
 }
 
 /// What the contact network of the whole bed is like at the onset, where the monitor has it.
@@ -198,9 +236,9 @@ void add_contact_network(ResultRows& rows, const Run& run, const NumberTable& ta
           fmt::format("last state at rest, i = {:.4f}{}", run.gradient[before], verdict(values[before])));
     }
     if (!is_ratio) continue;
-    if (const auto fall = gradient_at_fall(run.gradient, values, 1))
-      rows.add("gradient at which R falls below 1 for good", "i", *fall, "-", "haq, section 6.5.7",
-               percent_of(*fall, run.terzaghi));
+    if (const auto fall = gradient_at_fall(run.gradient, values, 1, run.stages > 0 ? 1 : 3))
+      rows.add("gradient at which R falls below 1", "i", *fall, "-", "haq, section 6.5.7",
+               distance(run, *fall));
   }
 }
 
@@ -221,19 +259,30 @@ void add_layers(ResultRows& rows, const Run& run, const Options& options) {
   }
 }
 
+/// DEM step of the last state at rest.
+std::optional<double> onset_step(const Run& run, const NumberTable& table) {
+  const auto* steps = table.find("dem_step");
+  if (!steps || !run.result.onset) return std::nullopt;
+  return (*steps)[run.sample_of_state[run.result.onset->state - 1]];
+}
+
 void run_command(Options& options) {
   check(options);
   const NumberTable table(options.file, kWho);
   const Run run = measured(options, table);
   ResultRows rows;
   add_state_at_rest(rows, run, options);
+  add_homogeneity(rows, run);
   add_conductivity(rows, run, options);
   add_critical_gradients(rows, run, options);
   add_contact_network(rows, run, table);
   add_layers(rows, run, options);
+  std::string layers;
+  if (!options.layers.files.empty())
+    layers = layer_measures(options.layers, table, run.record, onset_step(run, table));
   if (!options.output.empty()) rows.write_csv(options.output, kWho);
   if (!options.json.empty()) rows.write_json(options.json, kWho);
-  fmt::print("{}", rows.text());
+  fmt::print("{}{}", rows.text(), layers);
 }
 
 }  // namespace
@@ -256,6 +305,17 @@ void add_fluidisation(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--porosity", options->porosity, "of the bed at rest, instead of the first sample's");
   command->add_option("--height", options->height, "of the bed at rest, m, instead of the first sample's");
+  command->add_option(
+      "--dumps", options->layers.files,
+      "dumps of grains and contacts of the same run, patterns too: the contacts of its layers");
+  command->add_option("--measures", options->layers.measures,
+                      "CSV file: a row a snapshot and layer (needs --dumps)");
+  command->add_option("--distributions", options->layers.distributions,
+                      "CSV file: distributions of contacts a grain and of S_i (needs --dumps)");
+  command->add_option("--bounds", options->layers.bounds, "LOW HIGH of the layers, m, for the dumps")
+      ->expected(2);
+  command->add_option("--friction", options->layers.friction, "of the contacts in the dumps")
+      ->capture_default_str();
   command->add_option("--grain-density", options->grain_density, "kg/m3")->capture_default_str();
   command->add_option("--fluid-density", options->fluid.density, "kg/m3")->capture_default_str();
   command->add_option("--viscosity", options->fluid.kinematic_viscosity, "kinematic, m2/s")

@@ -5,7 +5,10 @@ From the monitor file of a run, and what `suffuse-analyse fluidisation FLOW.csv 
 
   fluidisation.py FLOW.csv --results RESULTS.csv --output fluidisation.png fluidisation.pdf
   fluidisation.py --fields bed.h5 --output slice.png slice.pdf [--time SECONDS] [--position METRES]
+  fluidisation.py --measures MEASURES.csv --distributions SHARES.csv --output contacts.png
 
+The last draws what `suffuse-analyse fluidisation --dumps ... --measures ... --distributions ...` wrote: contacts of the layers
+against the gradient, and distributions of contacts and of S_i at the first and the last snapshot (--step for another one).
 Several files after --output: the same figure in several formats. The slice is vertical, through the middle of y unless --position
 says where; grains are those of bed_grains.h5 beside the fields, cut by it. Pressure is that above the hydrostatic one.
 """
@@ -109,6 +112,89 @@ def draw_record(series, results, output):
         figure.savefig(path)
 
 
+def rows_of(path, *needed):
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            table = list(csv.DictReader(file))
+    except OSError as problem:
+        sys.exit(f"{path}: {problem.strerror}")
+    if not table or any(name not in table[0] for name in needed):
+        sys.exit(f"{path}: is no such file of `suffuse-analyse fluidisation`; it needs {', '.join(needed)}")
+    return table
+
+
+MEASURES = (("constraint_ratio", "constraint ratio R (−)"), ("coordination_number", "coordination number Z (−)"), ("stable_share", "M_s (−)"),
+            ("broken_contacts_net", "contacts lost, net (−)"), ("broken_contacts_gross", "contacts lost, gross (−)"), ("sliding_share", "sliding contacts S_c (−)"),
+            ("strong_share", "strong contacts (−)"), ("effective_stress_ratio", "σ′/σ′₀ (−)"))
+
+
+def draw_measures(figure, rows):
+    """Eight small panels against the layer's gradient, a line a layer."""
+    import suffuse_style as style
+
+    names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
+    axes = figure.subplots(4, 2, sharex=True).ravel()
+    for panel, (column, label) in zip(axes, MEASURES):
+        for name, colour in zip(names, shades(len(names))):
+            points = [(float(row["layer_gradient"]), float(row[column])) for row in rows if row["layer"] == name and row[column]]
+            panel.plot(*zip(*points), color=colour, marker=".", markersize=3, linewidth=1, label=f"layer {name}") if points else None
+        if column == "constraint_ratio":
+            panel.axhline(1, **style.REFERENCE)
+        panel.set_ylabel(label, fontsize=8)
+    axes[0].legend(fontsize=6)
+    for panel in axes[-2:]:
+        panel.set_xlabel("layer's gradient i (−)")
+
+
+def draw_plot_of_three(panel, rows):
+    """R against i and σ′/σ′₀, as in thesis Fig. 6.12(a)."""
+    names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
+    for name, colour in zip(names, shades(len(names))):
+        points = [tuple(float(row[c]) for c in ("layer_gradient", "effective_stress_ratio", "constraint_ratio"))
+                  for row in rows if row["layer"] == name and row["effective_stress_ratio"]]
+        if points:
+            panel.plot(*zip(*points), color=colour, marker=".", markersize=3, linewidth=1)
+    panel.set_xlabel("i (−)")
+    panel.set_ylabel("σ′/σ′₀ (−)")
+    panel.set_zlabel("R (−)")
+
+
+def draw_distributions(panels, rows, step):
+    """The whole bed at the first snapshot and at another one: contacts of grains by size, and S_i."""
+    import suffuse_style as style
+
+    steps = sorted({float(row["step"]) for row in rows})
+    later = steps[-1] if step is None else min(steps, key=lambda s: abs(s - step))
+    classes = (("contacts_of_all_grains", "all grains", "blue"), ("contacts_of_d50_and_larger", "d ≥ d50", "orange"), ("contacts_of_d85_and_larger", "d ≥ d85", "green"))
+    for at, look in ((steps[0], "-"), (later, ":")):
+        own = [row for row in rows if float(row["step"]) == at and row["layer"] == "all"]
+        gradient = float(own[0]["bed_gradient"])
+        for name, label, colour in classes:
+            points = [(float(row["low"]), float(row["share"])) for row in own if row["distribution"] == name]
+            panels[0].plot(*zip(*points), linestyle=look, color=style.COLOURS[colour], label=f"{label}, i = {gradient:.2f}")
+        points = [(float(row["low"]), float(row["share"])) for row in own if row["distribution"] == "slipping_index"]
+        panels[1].step(*zip(*points), where="mid", linestyle=look, color=style.COLOURS["blue"], label=f"i = {gradient:.2f}")
+    panels[0].set(xlabel="contacts of a grain Z (−; 12: and more)", ylabel="share of grains (−)")
+    panels[1].set(xlabel="slipping index S_i (−; 1: sliding)", ylabel="share of contacts (−)", yscale="log")
+    for panel in panels:
+        panel.legend(fontsize=6)
+
+
+def draw_contacts(measures, distributions, step, output):
+    import suffuse_style as style
+    from matplotlib import pyplot
+
+    figure = pyplot.figure(figsize=(2 * style.COLUMN_WIDTH, 7.2))
+    left, right = figure.subfigures(1, 2)
+    draw_measures(left, rows_of(measures, "layer", "layer_gradient", "effective_stress_ratio", "constraint_ratio"))
+    draw_plot_of_three(right.add_subplot(2, 1, 1, projection="3d"), rows_of(measures, "layer"))
+    if distributions:
+        panels = [right.add_subplot(4, 1, 3), right.add_subplot(4, 1, 4)]
+        draw_distributions(panels, rows_of(distributions, "step", "layer", "distribution", "low", "share"), step)
+    for path in output:
+        figure.savefig(path)
+
+
 def snapshot_of(file, time):
     """The group of a snapshot: the last, or that closest to a time."""
     groups = [file[name] for name in file if name.startswith("step_")]
@@ -205,13 +291,18 @@ def main():
     parser.add_argument("series", nargs="?", help="monitor file of the run, CSV")
     parser.add_argument("--results", help="CSV file of `suffuse-analyse fluidisation`: formulas and critical gradients")
     parser.add_argument("--fields", help="FILE.h5 of `lbm output`: draws a slice of grains and flow instead")
+    parser.add_argument("--measures", help="draws contacts of the layers instead: file of `fluidisation --measures`")
+    parser.add_argument("--distributions", help="with --measures: file of `fluidisation --distributions`")
+    parser.add_argument("--step", type=float, help="of the second distribution; the last if not given")
     parser.add_argument("--time", type=float, help="of the slice, s: the nearest snapshot; the last if not given")
     parser.add_argument("--position", type=float, help="of the slice, y in m")
     parser.add_argument("--output", required=True, nargs="+", help="files to write; their endings say the format")
     options = parser.parse_args()
-    if (options.series is None) == (options.fields is None):
-        parser.error("give either the monitor file or --fields FILE.h5")
-    if options.fields:
+    if sum(given is not None for given in (options.series, options.fields, options.measures)) != 1:
+        parser.error("give one of: the monitor file, --fields FILE.h5, --measures FILE.csv")
+    if options.measures:
+        draw_contacts(options.measures, options.distributions, options.step, options.output)
+    elif options.fields:
         draw_slice(options.fields, options.time, options.position, options.output)
     else:
         draw_record(TimeSeries(options.series), results_of(options.results), options.output)

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,28 +69,31 @@ std::optional<double> vanishing(const std::optional<LineFit>& line) {
   return line->root();
 }
 
+/// σ'/σ'_0 of a layer; empty where it is not known.
+std::vector<double> stress_ratio(std::span<const FlowState> states, std::size_t layer,
+                                 std::span<const std::size_t> window) {
+  if (states.front().stress.empty() || !(states.front().stress[layer] > 0)) return {};
+  const double reference = states.front().stress[layer];
+  return picked(series_of(states, [&](const FlowState& s) { return s.stress[layer] / reference; }), window);
+}
+
+std::vector<double> lifting_gradients(std::span<const FlowState> states, std::size_t layer,
+                                      std::span<const std::size_t> window) {
+  return picked(series_of(states, [&](const FlowState& s) { return lifting_gradient(s.gradient, layer); }),
+                window);
+}
+
 LayerFluidisation measure_layer(std::span<const FlowState> states, std::size_t layer,
                                 std::span<const std::size_t> window, std::span<const double> velocity) {
   LayerFluidisation result;
   const auto own = picked(series_of(states, [&](const FlowState& s) { return s.gradient[layer]; }), window);
   result.flow = fit_line(own, velocity);
-  const bool stressed = !states.front().stress.empty() && states.front().stress[layer] > 0;
-  if (!stressed) return result;
-  const double reference = states.front().stress[layer];
-  const auto ratio =
-      picked(series_of(states, [&](const FlowState& s) { return s.stress[layer] / reference; }), window);
-  const auto lifting = picked(
-      series_of(states, [&](const FlowState& s) { return lifting_gradient(s.gradient, layer); }), window);
+  const std::vector<double> ratio = stress_ratio(states, layer, window);
+  if (ratio.empty()) return result;
   result.stress = fit_line(own, ratio);
   result.local = vanishing(result.stress);
-  result.by_lifting = vanishing(fit_line(lifting, ratio));
+  result.by_lifting = vanishing(fit_line(lifting_gradients(states, layer, window), ratio));
   return result;
-}
-
-double total_stress(const FlowState& state) {
-  double sum = 0;
-  for (const double stress : state.stress) sum += stress;
-  return sum;
 }
 
 }  // namespace
@@ -131,14 +136,29 @@ double lifting_gradient(std::span<const double> layers, std::size_t layer) {
   return sum / (static_cast<double>(layer) + 0.5);
 }
 
-double mean_lifting_gradient(std::span<const double> layers) {
-  double sum = 0, weights = 0;
-  for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-    const double weight = static_cast<double>(layers.size() - layer) - 0.5;
-    sum += weight * layers[layer];
-    weights += weight;
+std::optional<ParabolaFit> fit_parabola(std::span<const double> x, std::span<const double> y) {
+  const auto points = static_cast<Eigen::Index>(std::min(x.size(), y.size()));
+  if (points < 3) return std::nullopt;
+  // About the middle of x and over its width, so that the columns are far from parallel.
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double middle = (*low + *high) / 2, width = *high - *low;
+  if (!(width > 0)) return std::nullopt;
+  Eigen::MatrixX3d columns(points, 3);
+  Eigen::VectorXd values(points);
+  for (Eigen::Index k = 0; k < points; ++k) {
+    const double u = (x[static_cast<std::size_t>(k)] - middle) / width;
+    columns.row(k) << 1, u, u * u;
+    values[k] = y[static_cast<std::size_t>(k)];
   }
-  return sum / weights;
+  const auto solver = columns.colPivHouseholderQr();
+  if (solver.rank() < 3) return std::nullopt;
+  const Eigen::Vector3d c = solver.solve(values);
+  ParabolaFit fit;
+  fit.square = c[2] / (width * width);
+  fit.linear = c[1] / width - 2 * fit.square * middle;
+  fit.constant = c[0] - c[1] * middle / width + fit.square * middle * middle;
+  fit.scatter = (columns * c - values).norm() / std::sqrt(static_cast<double>(points));
+  return fit;
 }
 
 std::vector<Hold> holds_of(std::span<const double> driving, std::size_t least) {
@@ -197,27 +217,28 @@ Fluidisation measure_fluidisation(std::span<const FlowState> states, double crit
   result.flow = *fit_line(x, velocity);
   for (std::size_t layer = 0; layer < states.front().gradient.size(); ++layer)
     result.layers.push_back(measure_layer(states, layer, window, velocity));
-  const double at_rest = total_stress(states.front());
-  if (at_rest > 0) {
-    const auto ratio =
-        picked(series_of(states, [&](const FlowState& s) { return total_stress(s) / at_rest; }), window);
-    const auto lifting = picked(
-        series_of(states, [](const FlowState& s) { return mean_lifting_gradient(s.gradient); }), window);
-    result.stress = fit_line(lifting, ratio);
-  }
+  const std::size_t lowest = states.front().gradient.size() - 1;
+  if (const auto ratio = stress_ratio(states, lowest, window); !ratio.empty())
+    result.stress = fit_line(lifting_gradients(states, lowest, window), ratio);
   auto rise = series_of(states, [&](const FlowState& s) { return s.centre / height; });
-  const LineFit elastic = *fit_line(x, picked(rise, window));
-  for (std::size_t k = 0; k < rise.size(); ++k) rise[k] -= elastic.at(gradient[k]);
-  result.onset = onset_of(gradient, rise, elastic.scatter, settings);
+  const auto elastic = fit_parabola(x, picked(rise, window));
+  if (!elastic) return result;
+  for (std::size_t k = 0; k < rise.size(); ++k) rise[k] -= elastic->at(gradient[k]);
+  result.onset = onset_of(gradient, rise, elastic->scatter, settings);
   return result;
 }
 
 std::optional<double> gradient_at_fall(std::span<const double> gradient, std::span<const double> values,
-                                       double level) {
-  std::size_t first = values.size();
-  while (first > 0 && values[first - 1] < level) --first;
-  if (first == values.size() || first == 0) return std::nullopt;
-  return crossing(gradient[first - 1], values[first - 1], gradient[first], values[first], level);
+                                       double level, std::size_t in_a_row) {
+  std::size_t below = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    below = values[k] < level ? below + 1 : 0;
+    if (below < in_a_row) continue;
+    const std::size_t first = k + 1 - below;
+    if (first == 0) return std::nullopt;
+    return crossing(gradient[first - 1], values[first - 1], gradient[first], values[first], level);
+  }
+  return std::nullopt;
 }
 
 }  // namespace suffuse::micromechanics

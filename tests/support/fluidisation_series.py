@@ -1,7 +1,7 @@
 """A made-up monitor file of an upward-flow run whose conductivity and critical gradients are known.
 
 The bed: layers of given porosities, conductivities after Carman and Kozeny, so that the gradient of each follows from the one
-velocity; stresses from the weight less the gradients above; a small elastic rise; it lifts where the mean gradient reaches the
+velocity; stresses from the weight less the gradients above; a small elastic rise (Hertz's); it lifts where the mean gradient reaches the
 mean of (G_s - 1)(1 - n), and its centre then rises with the cube of what the driving gradient is above that (as under a ramp).
 """
 import math
@@ -50,7 +50,7 @@ def rows(driving, noise=0.0, seed=1):
         for layer in range(LAYERS):
             carried = [(critical(n) - i) * weight for n, i in zip(POROSITIES[: layer + 1], local)]
             stress.append(sum(carried[:-1]) + carried[-1] / 2)
-        risen = 3e-4 * mean / BED_CRITICAL + 0.02 * above
+        risen = 1e-3 * (1 - (1 - mean / BED_CRITICAL) ** (2 / 3)) + 0.02 * above
         row = {"time_s": 1e-3 * k, "superficial_velocity_x_m_per_s": 0.0, "superficial_velocity_y_m_per_s": 0.0,
                "superficial_velocity_z_m_per_s": velocity, "hydraulic_gradient_z": applied * 0.45, "bed_height_m": HEIGHT * (1 + risen),
                "bed_porosity": sum(POROSITIES) / LAYERS, "centre_of_grains_z_m": HEIGHT * (0.5 + risen)}

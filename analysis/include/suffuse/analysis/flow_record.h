@@ -40,7 +40,10 @@ struct FlowRecord {
   std::vector<micromechanics::FlowState> states;  ///< all samples
   std::vector<double> driving;                    ///< applied_gradient, else the bed's own
   bool has_driving = false;
-  double porosity = 0, height = 0;     ///< of the bed at rest: those of the first sample
+  double porosity = 0, height = 0;  ///< of the bed at rest: those of the first sample
+  /// V_s/(A H) of all grains over the height H of the layers (column layers_height_m): 1 − n, and with it
+  /// what sticks out above.
+  std::optional<double> solids_over_layers;
   std::vector<double> layer_porosity;  ///< at rest; empty where it is not watched
   bool stress_in_pa = false;           ///< else ratios to the first sample
 };

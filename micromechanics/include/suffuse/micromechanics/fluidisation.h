@@ -22,6 +22,17 @@ struct LineFit {
 /// Of at least two points; none where all x are one.
 std::optional<LineFit> fit_line(std::span<const double> x, std::span<const double> y);
 
+/// A least-squares parabola.
+struct ParabolaFit {
+  double constant = 0, linear = 0, square = 0;
+  double scatter = 0;  ///< as of the line
+
+  double at(double x) const { return constant + x * (linear + x * square); }
+};
+
+/// Of at least three points; none where fewer than three x are distinct.
+std::optional<ParabolaFit> fit_parabola(std::span<const double> x, std::span<const double> y);
+
 /// A bed under upward flow at one time, or in the steady part of a held stage. Layers are equal, the first on
 /// top.
 struct FlowState {
@@ -40,9 +51,6 @@ double bed_gradient(std::span<const double> layers);
 /// this mean reaches i_cr, whatever the layers' conductivities.
 double lifting_gradient(std::span<const double> layers, std::size_t layer);
 
-/// The same for the mean stress of the bed: layers weighted by 2(N − j) + 1, j = 1 … N from the top.
-double mean_lifting_gradient(std::span<const double> layers);
-
 /// First and last index of a hold of the driving gradient.
 using Hold = std::pair<std::size_t, std::size_t>;
 
@@ -57,15 +65,17 @@ struct FluidisationSettings {
   double window_low = 0.2,
          window_high = 0.8;   ///< part of the critical gradient over which the bed rests and lines are fitted
   double window_slack = 0;    ///< added on both sides; holds stand on the ends of the window
-  double rise_share = 0.005;  ///< of the bed's height: more than this above the elastic line, the bed moves
-  double band_share =
-      2e-4;  ///< of the bed's height: least width of the band in which it rests; covers the part of
-             ///< the elastic rise that is not linear (some 1e-4 for E = 5 MPa, less for stiffer grains)
+  double rise_share = 0.005;  ///< of the bed's height: more than this above the elastic rise, the bed moves
+  /// Of the bed's height: least width of the band in which it rests. Hertzian contacts swell by
+  /// 1 − (σ'/σ'_0)^(2/3), which at σ' = 0 is above the parabola through 0.2 to 0.8 of it by 0.12 of the whole
+  /// swelling (some 1e-3 of the height for E = 5 MPa, less for stiffer grains), and grains shift a little
+  /// before the bed lifts: together 3e-4 in the quick scene of input_scripts/03_fluidisation.
+  double band_share = 5e-4;
 };
 
 /// Where a bed begins to move: it is sure to where its centre has risen by `rise_share` of the bed's height
-/// above its elastic line and stays above; traced back from there to where the rise left the band about the
-/// line (the larger of `band_share` and four times the scatter).
+/// above its elastic rise (a parabola through the window) and stays above; traced back from there to where
+/// the rise left the band about it (the larger of `band_share` and four times the scatter).
 struct OnsetOfMotion {
   double gradient = 0;         ///< over the bed, where the rise leaves the band, between the two states
   double last_at_rest = 0;     ///< gradient of the last state in the band
@@ -84,7 +94,9 @@ struct LayerFluidisation {
 
 struct Fluidisation {
   LineFit flow;  ///< velocity over the gradient of the bed; the slope is the conductivity k, m/s
-  std::optional<LineFit> stress;  ///< mean stress over its first value, over mean_lifting_gradient()
+  /// σ'/σ'_0 of the lowest layer over lifting_gradient() there, nearly the gradient over the bed: the first
+  /// layer to fail in the thesis (section 6.5.1), and where all grains' weight has been taken off.
+  std::optional<LineFit> stress;
   std::optional<OnsetOfMotion> onset;
   std::vector<LayerFluidisation> layers;
   double largest_gradient = 0;  ///< over the bed
@@ -97,9 +109,9 @@ struct Fluidisation {
 Fluidisation measure_fluidisation(std::span<const FlowState> states, double critical, double height,
                                   const FluidisationSettings& settings = {});
 
-/// The gradient over the bed at which a quantity falls below a level for good (straight between states);
-/// none where it does not, or is below it from the start.
+/// The gradient over the bed at which a quantity falls below a level and stays there for `in_a_row` states
+/// (straight between states), for the first time; none where it does not, or is below it from the start.
 std::optional<double> gradient_at_fall(std::span<const double> gradient, std::span<const double> values,
-                                       double level);
+                                       double level, std::size_t in_a_row = 1);
 
 }  // namespace suffuse::micromechanics

@@ -1,0 +1,161 @@
+#include "suffuse/micromechanics/layer_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "suffuse/micromechanics/constraint_ratio.h"
+#include "suffuse/micromechanics/coordination.h"
+
+namespace suffuse::micromechanics {
+namespace {
+
+double share(double part, double whole) {
+  return whole > 0 ? part / whole : 0;
+}
+
+template <std::size_t Size>
+void normalise(std::array<double, Size>& counts) {
+  double total = 0;
+  for (const double count : counts) total += count;
+  for (double& count : counts) count = share(count, total);
+}
+
+/// Calls `add` with the entry of a layer and with that of all layers.
+template <class Add>
+void for_layer_and_all(int layer, int layers, Add add) {
+  add(static_cast<std::size_t>(layer));
+  add(static_cast<std::size_t>(layers));
+}
+
+}  // namespace
+
+std::optional<int> HeightLayers::of(double height) const {
+  const double from_top = (high - height) / (high - low) * layers;
+  if (!(from_top >= 0 && from_top < layers)) return std::nullopt;
+  return static_cast<int>(from_top);
+}
+
+std::optional<int> HeightLayers::of(const Packing& packing, const Contact& contact) const {
+  const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
+  return of(first.position[axis] - contact.branch[axis] / 2);
+}
+
+std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLayers& layers,
+                                         const SlidingRule& rule, const std::vector<double>& strong) {
+  std::vector<LayerNetwork> networks(static_cast<std::size_t>(layers.layers) + 1);
+  const std::vector<int> counts = contacts_per_grain(packing);
+  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
+    const auto layer = layers.of(packing.grains[g].position[layers.axis]);
+    if (!layer) continue;
+    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
+      networks[k].grains += 1;
+      networks[k].coordination += counts[g];
+      networks[k].stable_share += counts[g] >= 4;
+    });
+  }
+  for (const Contact& contact : packing.contacts) {
+    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    if (!layer) continue;
+    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
+      networks[k].contacts += 1;
+      networks[k].mean_normal_force += normal_force(contact);
+      networks[k].sliding_share += is_sliding(contact, rule);
+    });
+  }
+  for (LayerNetwork& network : networks) {
+    network.coordination = share(network.coordination, network.grains);
+    network.stable_share = share(network.stable_share, network.grains);
+    network.mean_normal_force = share(network.mean_normal_force, network.contacts);
+    network.sliding_share = share(network.sliding_share, network.contacts);
+    Coordination mean;
+    mean.mean = network.coordination;
+    network.constraint_ratio = constraint_ratio(mean, network.sliding_share).mean;
+  }
+  for (const Contact& contact : packing.contacts) {
+    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    if (!layer) continue;
+    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
+      const double threshold = strong.empty() ? networks[k].mean_normal_force : strong[k];
+      networks[k].strong_share += normal_force(contact) >= threshold;
+    });
+  }
+  for (LayerNetwork& network : networks) network.strong_share = share(network.strong_share, network.contacts);
+  return networks;
+}
+
+LayerReference::LayerReference(const Packing& packing, const HeightLayers& layers)
+    : layers_(layers), contacts_(static_cast<std::size_t>(layers.layers) + 1) {
+  for (const Contact& contact : packing.contacts) {
+    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    if (!layer) continue;
+    const auto [low, high] = std::minmax(contact.first_id, contact.second_id);
+    layer_of_pair_.emplace(GrainPair{low, high}, *layer);
+    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) { contacts_[k] += 1; });
+  }
+}
+
+std::vector<BrokenContacts> LayerReference::broken(const Packing& packing) const {
+  std::vector<BrokenSums> sums(contacts_.size());
+  std::map<GrainPair, int> unseen = layer_of_pair_;
+  for (const Contact& contact : packing.contacts) {
+    if (!contact.counted) continue;
+    if (const auto layer = layers_.of(packing, contact))
+      for_layer_and_all(*layer, layers_.layers, [&](std::size_t k) { sums[k].current += 1; });
+    const auto [low, high] = std::minmax(contact.first_id, contact.second_id);
+    const auto reference = unseen.find(GrainPair{low, high});
+    if (reference == unseen.end()) continue;
+    for_layer_and_all(reference->second, layers_.layers, [&](std::size_t k) { sums[k].kept += 1; });
+    unseen.erase(reference);
+  }
+  std::vector<BrokenContacts> result;
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    sums[k].reference = contacts_[k];
+    result.push_back(broken_contacts(sums[k]));
+  }
+  return result;
+}
+
+double own_size_at(const Packing& packing, double finer) {
+  std::vector<double> radii;
+  double total = 0;
+  for (const Grain& grain : packing.grains) {
+    radii.push_back(grain.radius);
+    total += sphere_volume(grain.radius);
+  }
+  std::sort(radii.begin(), radii.end());
+  double mass = 0;
+  for (const double radius : radii) {
+    mass += sphere_volume(radius);
+    if (mass >= finer * total) return 2 * radius;
+  }
+  return radii.empty() ? 0 : 2 * radii.back();
+}
+
+ContactCounts coordination_distribution(const Packing& packing, const HeightLayers& layers,
+                                        std::optional<int> layer, double least_diameter) {
+  ContactCounts shares{};
+  const std::vector<int> counts = contacts_per_grain(packing);
+  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
+    const Grain& grain = packing.grains[g];
+    const auto own = layers.of(grain.position[layers.axis]);
+    if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
+    shares[std::min(static_cast<std::size_t>(counts[g]), shares.size() - 1)] += 1;
+  }
+  normalise(shares);
+  return shares;
+}
+
+SlippingShares slipping_distribution(const Packing& packing, const HeightLayers& layers,
+                                     std::optional<int> layer, const SlidingRule& rule) {
+  SlippingShares shares{};
+  for (const Contact& contact : packing.contacts) {
+    const auto own = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    if (!own || (layer && *own != *layer)) continue;
+    const auto bin = static_cast<std::size_t>(std::clamp(10 * slipping_index(contact), 0.0, 9.0));
+    shares[is_sliding(contact, rule) ? shares.size() - 1 : bin] += 1;
+  }
+  normalise(shares);
+  return shares;
+}
+
+}  // namespace suffuse::micromechanics
