@@ -221,6 +221,7 @@ void LbmCommand::build() {
            "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
            "`run` and `dem_timestep`"});
     lbm::load_state(simulation_->fluid(), state_to_read_);
+    if (port_->anything_moves()) require_grains_of(lmp_, state_to_read_);
     continued_at_ = simulation_->time_si();
   }
 }

@@ -7,9 +7,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "comm.h"
 #include "lammps.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
 #include "suffuse/lbm/checkpoint.h"
+#include "update.h"
 #include "write_restart.h"
 
 namespace suffuse::coupling {
@@ -30,6 +33,9 @@ void require_writable(const std::string& who, const std::string& file, MPI_Comm 
   if (failed != 0) throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
 
+/// LIGGGHTS's step in a saved state of the water.
+constexpr const char* kGrainsStep = "liggghts_step";
+
 std::string grains_file(const std::string& file) {
   const std::filesystem::path path(file);
   return (path.parent_path() / (path.stem().string() + "_grains" + path.extension().string())).string();
@@ -37,11 +43,30 @@ std::string grains_file(const std::string& file) {
 
 }  // namespace
 
+/// Both files are written beside the old ones, which they replace when they are whole.
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
-  require_writable("lbm restart write", file + ".part", lmp->world);
-  lbm::save_state(simulation.fluid(), file);
-  std::string grains = file + ".grains";
+  const std::string fresh = file + ".new";
+  require_writable("lbm restart write", fresh, lmp->world);
+  lbm::save_state(simulation.fluid(), fresh);
+  Hdf5File(fresh, Hdf5File::Mode::append, lmp->world)
+      .set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+  std::string grains = fresh + ".grains";
   LAMMPS_NS::WriteRestart(lmp).write(grains.data());
+  MPI_Barrier(lmp->world);
+  if (lmp->comm->me == 0) {
+    std::filesystem::rename(grains, file + ".grains");
+    std::filesystem::rename(fresh, file);
+  }
+  MPI_Barrier(lmp->world);
+}
+
+void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  const auto saved = Hdf5File(file, Hdf5File::Mode::read, lmp->world).integer_attribute("/", kGrainsStep);
+  if (saved != lmp->update->ntimestep)
+    throw_user_error(
+        {"lbm restart", "read " + file, fmt::format("water of LIGGGHTS's step {}", saved),
+         fmt::format("meet grains of that step, not of step {}", lmp->update->ntimestep),
+         "read_restart the .grains beside it; a run that was killed while it wrote leaves an older one"});
 }
 
 void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
@@ -81,7 +106,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  if (checkpoint_) require_writable("lbm restart write", checkpoint_->file + ".part", lmp->world);
+  if (checkpoint_) require_writable("lbm restart write", checkpoint_->file + ".new", lmp->world);
   checkpoint_every_ = checkpoint_ ? steps_in(checkpoint_->every, simulation.units()) : 0;
 }
 
