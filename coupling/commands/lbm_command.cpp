@@ -214,13 +214,13 @@ void LbmCommand::build() {
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
   if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
   if (!state_to_read_.empty()) {
+    lbm::load_state(simulation_->fluid(), state_to_read_);
     if (port_->anything_moves() && !port_->loads_restored())
       throw_user_error(
           {"lbm restart", "read " + state_to_read_, "without the loads of the grains",
            "find them as they were saved",
            "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
            "`run` and `dem_timestep`"});
-    lbm::load_state(simulation_->fluid(), state_to_read_);
     if (port_->anything_moves()) require_grains_of(lmp_, state_to_read_);
     continued_at_ = simulation_->time_si();
   }
