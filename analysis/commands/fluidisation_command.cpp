@@ -168,8 +168,10 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
     rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
              "with those that stick out above the height of the layers");
   if (result.stress && result.stress->slope < 0)
-    rows.add("critical gradient, stress vanishes", "i_cr", result.stress->root(), "-",
-             "line of sigma' over i", distance(run, result.stress->root()));
+    rows.add(
+        "critical gradient, stress vanishes", "i_cr", result.stress->root(), "-", "line of sigma' over i",
+        fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / result.stress->root(),
+                    distance(run, result.stress->root())));
   if (result.onset) {
     const OnsetOfMotion& onset = *result.onset;
     const auto [gradient, half_width] = onset_gradient(run);

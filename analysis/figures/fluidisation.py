@@ -70,7 +70,10 @@ def draw_velocity(panel, gradient, velocity, results):
         if quantity in results:
             panel.plot([0, end], [0, 1e3 * results[quantity] * end], label=label.format(1e3 * results[quantity]), linewidth=1.1, **look)
     mark_critical(panel, results)
-    panel.set(ylabel="superficial\nvelocity (mm/s)", ylim=(0, None))
+    top = 1.05e3 * max(velocity)
+    if "conductivity, measured" in results:  # of the bed that has gone only the beginning, so that the bed at rest is seen
+        top = min(top, 1.8e3 * results["conductivity, measured"] * end)
+    panel.set(ylabel="superficial\nvelocity (mm/s)", ylim=(0, top))
     panel.legend(fontsize=7, loc="upper left")
 
 
@@ -148,6 +151,8 @@ def draw_measures(figure, rows):
 
 def draw_plot_of_three(panel, rows):
     """R against i and σ′/σ′₀, as in thesis Fig. 6.12(a)."""
+    from matplotlib import ticker
+
     names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
     for name, colour in zip(names, shades(len(names))):
         points = [tuple(float(row[c]) for c in ("layer_gradient", "effective_stress_ratio", "constraint_ratio"))
@@ -157,6 +162,10 @@ def draw_plot_of_three(panel, rows):
     panel.set_xlabel("i (−)")
     panel.set_ylabel("σ′/σ′₀ (−)")
     panel.set_zlabel("R (−)")
+    panel.tick_params(labelsize=7)
+    panel.set_box_aspect(None, zoom=0.72)  # room for the names of the axes
+    for axis in (panel.xaxis, panel.yaxis, panel.zaxis):
+        axis.set_major_locator(ticker.MaxNLocator(4))
 
 
 def draw_distributions(panels, rows, step):
@@ -166,16 +175,17 @@ def draw_distributions(panels, rows, step):
     steps = sorted({float(row["step"]) for row in rows})
     later = steps[-1] if step is None else min(steps, key=lambda s: abs(s - step))
     classes = (("contacts_of_all_grains", "all grains", "blue"), ("contacts_of_d50_and_larger", "d ≥ d50", "orange"), ("contacts_of_d85_and_larger", "d ≥ d85", "green"))
-    for at, look in ((steps[0], "-"), (later, ":")):
+    for at, look in ((steps[0], "-"), (later, ":"))[: 1 if later == steps[0] else 2]:
         own = [row for row in rows if float(row["step"]) == at and row["layer"] == "all"]
         gradient = float(own[0]["bed_gradient"])
         for name, label, colour in classes:
             points = [(float(row["low"]), float(row["share"])) for row in own if row["distribution"] == name]
             panels[0].plot(*zip(*points), linestyle=look, color=style.COLOURS[colour], label=f"{label}, i = {gradient:.2f}")
         points = [(float(row["low"]), float(row["share"])) for row in own if row["distribution"] == "slipping_index"]
-        panels[1].step(*zip(*points), where="mid", linestyle=look, color=style.COLOURS["blue"], label=f"i = {gradient:.2f}")
+        points.append((points[-1][0] + 0.1, points[-1][1]))  # the sliding ones, drawn as wide as the other bins
+        panels[1].step(*zip(*points), where="post", linestyle=look, color=style.COLOURS["blue"], label=f"i = {gradient:.2f}")
     panels[0].set(xlabel="contacts of a grain Z (−; 12: and more)", ylabel="share of grains (−)")
-    panels[1].set(xlabel="slipping index S_i (−; 1: sliding)", ylabel="share of contacts (−)", yscale="log")
+    panels[1].set(xlabel="slipping index S_i (−; beyond 1: sliding)", ylabel="share of contacts (−)", yscale="log")
     for panel in panels:
         panel.legend(fontsize=6)
 

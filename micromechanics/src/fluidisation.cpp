@@ -98,6 +98,16 @@ LayerFluidisation measure_layer(std::span<const FlowState> states, std::size_t l
 
 }  // namespace
 
+double LineFit::root_error() const {
+  // y(x) at the mean and the slope are uncorrelated: var(root) = [var(y at mean) + (root − mean)²
+  // var(slope)]/slope².
+  if (points < 3) return 0;
+  const auto n = static_cast<double>(points);
+  const double at_mean =
+      scatter * scatter / (n - 2);  // scatter² n/(n − 2) is the variance of a point, over n
+  return std::sqrt(at_mean + std::pow((root() - mean_x) * slope_error, 2)) / std::abs(slope);
+}
+
 std::optional<LineFit> fit_line(std::span<const double> x, std::span<const double> y) {
   const std::size_t points = std::min(x.size(), y.size());
   if (points < 2) return std::nullopt;
@@ -115,6 +125,7 @@ std::optional<LineFit> fit_line(std::span<const double> x, std::span<const doubl
   if (!(xx > 0)) return std::nullopt;
   LineFit line;
   line.points = points;
+  line.mean_x = mean_x;
   line.slope = xy / xx;
   line.intercept = mean_y - line.slope * mean_x;
   double squares = 0;

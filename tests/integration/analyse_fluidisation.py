@@ -147,20 +147,26 @@ def dumped_layers(run):
     expect([round(8 * share) for share in large[:3]] == [0, 3, 5], f"contacts of the larger grains: {large}")
 
 
-def figures(run, folder):
-    def draw(*words):
-        return subprocess.run([sys.executable, folder / "fluidisation.py", *map(str, words)], cwd=run.folder, capture_output=True, text=True, timeout=120)
+def python_that_draws():
+    """This Python, or Debian's, or None."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if pathlib.Path(python).exists() and subprocess.run([python, "-c", "import matplotlib, h5py"], capture_output=True).returncode == 0:
+            return python
+    return None
 
-    if subprocess.run([sys.executable, "-c", "import matplotlib, h5py"], capture_output=True).returncode != 0:
-        print("figures are not drawn: this Python has no matplotlib or h5py")
-        return
+
+def figures(run, folder, python):
+    def draw(*words):
+        return subprocess.run([python, folder / "fluidisation.py", *map(str, words)], cwd=run.folder, capture_output=True, text=True, timeout=120)
+
     for name in ("ramp", "stages"):
         run(f"{name}.csv", "--csv", "results.csv")
         done = draw(f"{name}.csv", "--results", "results.csv", "--output", f"{name}.png", f"{name}.pdf")
         expect(done.returncode == 0 and (run.folder / f"{name}.png").stat().st_size > 10000, f"figure of {name}: {done.stderr}")
     done = draw("--measures", "measures.csv", "--distributions", "shares.csv", "--output", "contacts.png")
     expect(done.returncode == 0 and (run.folder / "contacts.png").stat().st_size > 10000, f"figure of contacts: {done.stderr}")
-    make_fields(run.folder)
+    made = subprocess.run([python, "-c", FIELDS, run.folder], capture_output=True, text=True)
+    expect(made.returncode == 0, f"fields: {made.stderr}")
     done = draw("--fields", "flow.h5", "--output", "slice.png")
     expect(done.returncode == 0 and (run.folder / "slice.png").stat().st_size > 5000, f"slice: {done.stderr}")
     for words, says in ((("--fields", "ramp.csv"), "lbm output"), (("short_row.csv",), "values"), (("--fields", "flow.h5", "--position", 1), "between")):
@@ -169,22 +175,22 @@ def figures(run, folder):
         expect(done.returncode != 0 and says in done.stderr and "Traceback" not in done.stderr, f"figure of {words}: {done.stderr}")
 
 
-def make_fields(folder):
-    import h5py
-    import numpy
-
-    with h5py.File(folder / "flow.h5", "w") as file:
-        group = file.create_group("step_000000000001")
-        group.attrs["time_s"] = 0.1
-        group["velocity"] = numpy.full((12, 6, 8, 3), 1e-3, dtype="f4")
-        group["pressure"] = numpy.linspace(10, 0, 12 * 48, dtype="f4").reshape(12, 6, 8)
-    with h5py.File(folder / "flow_grains.h5", "w") as file:
-        group = file.create_group("step_000000000001")
-        group.attrs["time_s"] = 0.1
-        group["grains/position"] = numpy.array([[0.2e-3, 0.3e-3, 0.3e-3], [0.7e-3, 0.1e-3, 0.5e-3]])
-        group["grains/radius"] = numpy.array([0.15e-3, 0.1e-3])
-    (folder / "flow.xdmf").write_text('<Xdmf><Domain><Grid Name="fluid"><Grid Name="step_000000000001"><Geometry GeometryType="ORIGIN_DXDYDZ">'
-                                      "<DataItem>0 0 0</DataItem><DataItem>1e-4 1e-4 1e-4</DataItem></Geometry></Grid></Grid></Domain></Xdmf>", encoding="utf-8")
+FIELDS = """
+import pathlib, sys, h5py, numpy
+folder = pathlib.Path(sys.argv[1])
+with h5py.File(folder / "flow.h5", "w") as file:
+    group = file.create_group("step_000000000001")
+    group.attrs["time_s"] = 0.1
+    group["velocity"] = numpy.full((12, 6, 8, 3), 1e-3, dtype="f4")
+    group["pressure"] = numpy.linspace(10, 0, 12 * 48, dtype="f4").reshape(12, 6, 8)
+with h5py.File(folder / "flow_grains.h5", "w") as file:
+    group = file.create_group("step_000000000001")
+    group.attrs["time_s"] = 0.1
+    group["grains/position"] = numpy.array([[0.2e-3, 0.3e-3, 0.3e-3], [0.7e-3, 0.1e-3, 0.5e-3]])
+    group["grains/radius"] = numpy.array([0.15e-3, 0.1e-3])
+(folder / "flow.xdmf").write_text('<Xdmf><Domain><Grid Name="fluid"><Grid Name="step_000000000001"><Geometry GeometryType="ORIGIN_DXDYDZ">'
+                                  "<DataItem>0 0 0</DataItem><DataItem>1e-4 1e-4 1e-4</DataItem></Geometry></Grid></Grid></Domain></Xdmf>")
+"""
 
 
 def refused(run, what, says, *words):
@@ -232,7 +238,11 @@ def main():
         run = Runner(options.analyse.resolve(), pathlib.Path(folder))
         good_series(run, options.gradings.resolve())
         dumped_layers(run)
-        figures(run, options.figures.resolve())
+        python = python_that_draws()
+        if python:
+            figures(run, options.figures.resolve(), python)
+        else:
+            print("figures are not drawn: no Python here has matplotlib and h5py")
         bad_input(run)
     if PROBLEMS:
         sys.exit(f"{len(PROBLEMS)} failed")

@@ -68,6 +68,9 @@ TEST_CASE("the standard error of a slope is that of the textbook") {
   CHECK(line->slope == Approx(1));
   // Residuals −1, 2, −1: variance 6/(3 − 2), Σ(x − x̄)² = 2.
   CHECK(line->slope_error == Approx(std::sqrt(6.0 / 2.0)));
+  // The line is 1 at x = 0, the mean, with variance 6/3; its root is -1: sqrt(2 + 1 * 3)/1.
+  CHECK(line->root() == Approx(-1));
+  CHECK(line->root_error() == Approx(std::sqrt(5.0)));
 }
 
 TEST_CASE("what lifts a layer is the mean gradient above its middle") {

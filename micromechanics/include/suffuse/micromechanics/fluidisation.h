@@ -13,10 +13,14 @@ struct LineFit {
   double intercept = 0, slope = 0;
   double slope_error = 0;  ///< standard error of the slope from the scatter about the line
   double scatter = 0;      ///< root mean square distance of y from the line
+  double mean_x = 0;
   std::size_t points = 0;
 
   double at(double x) const { return intercept + slope * x; }
   double root() const { return -intercept / slope; }  ///< where the line meets zero
+  /// Standard error of root(), to first order in the scatter: what it would be in repeated runs if the
+  /// distances from the line were independent.
+  double root_error() const;
 };
 
 /// Of at least two points; none where all x are one.
