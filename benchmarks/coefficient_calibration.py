@@ -174,18 +174,15 @@ def figure(data, out):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    fig, axes = plt.subplots(1, 2, figsize=(8, 3.4), sharey=True)
-    for axis, operator in zip(axes, ("force", "sc3")):
-        groups = (("fit", ARRAYS, "+", "0.6", "arrays, fitted"), ("fit", FITTED, "x", "C0", "random, fitted"),
-                  ("held_out", HELD_OUT, "o", "C3", "random, not fitted"))
-        for name, packings, marker, color, label in groups:
-            path = data / f"coefficient_{name}_{operator}.csv"
-            rows = [r for r in read(path) if r["packing"] in packings] if path.exists() else []
-            axis.plot(column(rows, "diameter_cells"), column(rows, "error_percent"), marker, color=color, ms=4, label=label)
-        axis.fill_between([4, 6.5, 6.5, 17], [-3, -3, -2, -2], [3, 3, 2, 2], color="0.9", zorder=0)
-        axis.set(xlabel="Sauter diameter in cells", title=operator, ylim=(-20, 20))
-    axes[0].set_ylabel("error of the drag, %")
-    axes[0].legend(fontsize=7)
+    fig, axis = plt.subplots(figsize=(5, 3.4))
+    groups = (("fit", ARRAYS, "+", "0.6", "arrays, fitted"), ("fit", FITTED, "x", "C0", "random, fitted"),
+              ("held_out", HELD_OUT, "o", "C3", "random, not fitted"))
+    for name, packings, marker, color, label in groups:
+        rows = [r for r in read(data / f"coefficient_{name}_force.csv") if r["packing"] in packings]
+        axis.plot(column(rows, "diameter_cells"), column(rows, "error_percent"), marker, color=color, ms=4, label=label)
+    axis.fill_between([4, 6.5, 6.5, 13], [-3, -3, -2, -2], [3, 3, 2, 2], color="0.9", zorder=0)
+    axis.set(xlabel="Sauter diameter in cells", title="force", ylabel="error of the drag, %", ylim=(-20, 20))
+    axis.legend(fontsize=7)
     fig.tight_layout()
     fig.savefig(out, dpi=80)
 

@@ -46,7 +46,7 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
 }
 
 double expected_permeability_error(double cells_per_sauter_diameter) {
-  return error_at(cells_per_sauter_diameter, 0.068, 0.028);
+  return error_at(cells_per_sauter_diameter, 0.065, 0.03);
 }
 
 double largest_permeability_error(double cells_per_sauter_diameter) {
