@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "drag_of_packings.h"
+#include "link_wise_stokes.h"
 
 namespace {
 
@@ -41,6 +42,12 @@ double read_number(const std::string& word) {
   return word == "auto" ? 0. : std::stod(word);
 }
 
+DragResult run_one(const std::string& method, const Packing& packing, double diameter, const DragRun& run) {
+  if (method == "interpolated") return link_wise_drag(packing, diameter, LinkRule::interpolated, run.offset);
+  if (method == "halfway") return link_wise_drag(packing, diameter, LinkRule::halfway, run.offset);
+  return drag_of(packing, diameter, run);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,7 +63,8 @@ int main(int argc, char** argv) {
   app.add_option("--coefficient", coefficients, "numbers or auto");
   app.add_option("--relaxation-time", taus);
   app.add_option("--offset", offsets, "of the packing from the lattice, cells");
-  app.add_option("--operator", solid_operator, "force, sc1, sc2, sc3");
+  app.add_option("--operator", solid_operator,
+                 "force, sc1, sc2, sc3; interpolated or halfway: link-wise, another method");
   app.add_option("--weighting", weighting, "fraction, noble_torczynski, viscosity_independent");
   app.add_option("--fraction", fraction, "exact, linear, subcells");
   app.add_option("--collision", collision, "trt, bgk");
@@ -105,7 +113,7 @@ int main(int argc, char** argv) {
               std::fflush(stdout);
               continue;
             }
-            const DragResult r = drag_of(packing, diameter, run);
+            const DragResult r = run_one(solid_operator, packing, diameter, run);
             std::printf("%s,%.5f,%.4f,%d,%g,%s,%s,%s,%g,%s,%.4f,%.5f,%ld\n", name.c_str(), r.phi, r.diameter,
                         r.cells, tau, solid_operator.c_str(), weighting.c_str(), fraction.c_str(), offset,
                         k > 0 ? std::to_string(k).c_str() : "auto", r.crowding, r.drag, r.steps);

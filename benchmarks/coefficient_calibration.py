@@ -1,180 +1,213 @@
 #!/usr/bin/env python3
-"""Fits the coefficient of the viscosity-independent weighting, and reports it on packings that were not fitted.
+"""Fits the law of the automatic coefficient, and reports it on packings that were not fitted.
 
-    coefficient_calibration.py run  --program build/release/bin/coefficient_calibration --runs RUNS
-    coefficient_calibration.py fit --runs RUNS --table zick_homsy_1982.csv --out docs/results/data [--figure FILE.png]
+    coefficient_calibration.py references --program build/release/bin/coefficient_calibration
+    coefficient_calibration.py fit        --program build/release/bin/coefficient_calibration [--operator sc3]
+    coefficient_calibration.py report     --program build/release/bin/coefficient_calibration [--operator sc3]
+    coefficient_calibration.py figure --figure docs/decisions/solid-operator.png
 
-`run` makes RUNS/scans_OPERATOR.csv (drag against the coefficient, on arrays and random packings of equal
-spheres) and RUNS/packings_OPERATOR.csv (automatic coefficient, random packings, at 5 to 12 cells): about an
-hour on one core (an estimate: not yet run as a whole). `fit` finds the coefficient k* that gives the right drag in each (Zick & Homsy's in arrays,
-the mean of the finest runs of both operators in random packings), fits CoefficientLaw to it, and writes
-coefficient_scans.csv and coefficient_packings.csv. Seeds of 2 and graded packings are not fitted.
+Files are in --data (docs/results/data). `references` makes packing_references.csv: the drag of every packing at 12 to 24
+cells a Sauter diameter by the link-wise method, some five minutes on one core. `fit` is
+Gauss-Newton on the error of the drag itself, from the constants in START: in every round all packings of
+FITTED and ARRAYS are run at 5 to 12 cells with the law as it is. The slope dlnK/dlnk is measured once, with
+all constants a tenth larger. Its last round is coefficient_fit_OPERATOR.csv; the constants are printed. `report`
+runs the program's own law on HELD_OUT at 5 and 8 cells: coefficient_held_out_OPERATOR.csv.
 """
 import argparse
-import collections
 import csv
+import hashlib
 import pathlib
 import subprocess
 
 import numpy as np
 
-ARRAYS = "sc:0.064,sc:0.216,fcc:0.343,sc:0.45,fcc:0.45,sc:0.5236,fcc:0.6"
-FITTED = "random:0.2:16:1,random:0.3:16:1,random:0.4:16:1,random:0.5:16:1,random:0.58:16:1,random:0.62:32:1"
-PACKINGS = FITTED + (
-    ","
-    "random:0.4:24:2,random:0.58:24:2,spread:0.45:16:1:0.3,spread:0.58:16:2:0.4,appendix_c:0.6:1,"
-    "gap:0.62:4:1:3:0.3"
-)
-COEFFICIENTS = {"force": "1.5,2,3,4,6,8,11", "sc3": "0.8,1.2,1.8,2.7,4,6"}
-DIAMETERS = {"force": "5,6.2,8,10,14,20", "sc3": "5,6.5,8,11"}
-TAU = {"force": ("1", "1"), "sc3": ("0.8", "0.9")}  # of arrays and packings; `force` does not depend on it
+# The first is there so that the law holds for lone spheres too; it is not among the reference runs.
+ARRAYS = ["sc:0.064", "sc:0.216", "sc:0.45", "sc:0.5236", "fcc:0.343", "fcc:0.45", "fcc:0.6"]
+FITTED = ["random:0.2:16:1", "random:0.3:16:1", "random:0.4:16:1", "random:0.5:16:1", "random:0.58:16:1", "random:0.62:16:1",
+          "spread:0.5:16:1:0.4"]
+HELD_OUT = ["random:0.2:16:11", "random:0.3:16:11", "random:0.4:16:11", "random:0.5:16:11", "random:0.58:16:11",
+            "random:0.62:16:11", "spread:0.45:16:11:0.25", "spread:0.58:16:11:0.4", "appendix_c:0.6:11", "gap:0.62:4:11:3:0.3"]
+TAU = {"force": "1", "sc3": "0.8", "interpolated": "1"}  # `force` and `interpolated` do not depend on it
+START = {"force": [1.945, 5, 12.3, 81], "sc3": [0.64, 5.3, 6.34, 44.5]}
+FIT_RUNS = [("5", "0.3,0.8"), ("8,12", "0.3")]  # diameters, offsets
+# Errors allowed, per cent: what the fit's residuals are weighed with.
+ALLOWED = [(5, 3.0), (8, 2.0), (12, 1.5)]
 
 
-def run(program, runs):
-    runs.mkdir(parents=True, exist_ok=True)
-    for operator, tau in TAU.items():
-        common = ["--operator", operator]
-        jobs = {
-            "scans": ["--packing", ARRAYS + "," + FITTED, "--diameter", DIAMETERS[operator], "--coefficient", COEFFICIENTS[operator],
-                       "--relaxation-time", tau[0]],
-            "packings": ["--packing", PACKINGS, "--diameter", "5,6.5,8,12", "--relaxation-time", tau[1]],
-        }
-        for name, options in jobs.items():
-            with open(runs / f"{name}_{operator}.csv", "w", encoding="utf-8") as out:
-                subprocess.run([program, *common, *options], stdout=out, check=True)
+CACHE = None
+
+
+def run(program, packings, diameters, operator, law=None, offsets="0.3"):
+    command = [str(program), "--operator", operator, "--packing", ",".join(packings), "--diameter", diameters,
+               "--relaxation-time", TAU[operator], "--offset", offsets]
+    if law is not None:
+        command += ["--law", ",".join(f"{v:.6g}" for v in law)]
+    kept = CACHE / hashlib.sha256(" ".join(command[1:]).encode()).hexdigest()[:20] if CACHE else None
+    if kept and kept.exists():
+        return list(csv.DictReader(kept.read_text().splitlines()))
+    text = subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout
+    if kept:
+        kept.write_text(text)
+    return list(csv.DictReader(text.splitlines()))
 
 
 def read(path):
     with open(path, encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def write(path, rows):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def zick_homsy(path):
-    drags = {}
-    with open(path, encoding="utf-8") as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        for row in rows:
-            drag = row["K_zick_homsy_table"] or row["K_computed_here"]
-            c = round(float(row["solid_fraction_c"]), 4)
-            drags[f"{row['lattice'].lower()}:{c:g}"] = float(drag)
+    return {f"{row['lattice'].lower()}:{round(float(row['solid_fraction_c']), 4):g}":
+            float(row["K_zick_homsy_table"] or row["K_computed_here"]) for row in read(path)}
+
+
+def resolutions(packing):
+    """Of the reference runs: dense packings need two, the open ones are too large for more."""
+    phi = float(packing.split(":")[1])
+    return "16,24" if phi > 0.55 and not packing.startswith("appendix_c") else "12" if phi < 0.35 and packing != "random:0.3:16:1" else "16"
+
+
+def references(program, data):
+    rows = [row for p in ARRAYS[1:] for row in run(program, [p], "12,16,24", "interpolated")]
+    for packing in FITTED + HELD_OUT:
+        rows += run(program, [packing], resolutions(packing), "interpolated")
+    write(data / "packing_references.csv", rows)
+
+
+def drag_at(rows, packing, diameters):
+    """Of the link-wise runs, at one resolution; from two extrapolated, with an error that falls as D^-1.5."""
+    found = [(float(r["diameter_cells"]), float(r["drag_K"])) for r in rows if r["packing"] == packing]
+    chosen = [min(found, key=lambda f: abs(f[0] / d - 1)) for d in diameters]
+    if len(chosen) == 1:
+        return chosen[0][1]
+    (coarse, first), (fine, second) = chosen
+    return second - (first - second) / ((fine / coarse) ** 1.5 - 1)
+
+
+def reference_drags(data, table):
+    """K and its doubt (a share): Zick & Homsy's for arrays; for packings the link-wise method's, less the mean error
+    that the same procedure has in arrays; the doubt is the scatter of those errors."""
+    rows = read(data / "packing_references.csv")
+    known = zick_homsy(table)
+    drags = {name: (drag, 0.) for name, drag in known.items()}
+    for packing in FITTED + HELD_OUT:
+        diameters = [float(d) for d in resolutions(packing).split(",")]
+        # At one resolution narrow pores are out of reach, at 12 cells those of c = 0.45 too.
+        arrays = [a for a in ARRAYS[1:] if len(diameters) > 1 or float(a.split(":")[1]) < (0.35 if diameters[0] < 16 else 0.5)]
+        errors = [drag_at(rows, a, diameters) / known[a] - 1 for a in arrays]
+        if sum(r["packing"] == packing for r in rows) >= len(diameters):
+            drags[packing] = drag_at(rows, packing, diameters) / (1 + np.mean(errors)), float(np.std(errors))
     return drags
-
-
-def best_coefficients(rows, drags):
-    """(packing, D, x, k*) of each packing: log k interpolated in log K, and the slope dlnK/dlnk there."""
-    points = collections.defaultdict(list)
-    for row in rows:
-        key = row["packing"], float(row["diameter_cells"]), float(row["crowding"])
-        points[key].append((float(row["drag_K"]), float(row["coefficient"])))
-    best = []
-    for (name, diameter, x), pairs in points.items():
-        drag, k = (np.log(v) for v in np.array(sorted(pairs)).T)
-        wanted = np.log(drags[name])
-        if drag[0] <= wanted <= drag[-1]:
-            nearest = np.argsort(abs(drag - wanted))[:3]
-            quadratic = np.polyfit(drag[nearest], k[nearest], 2)
-            slope = 1 / np.polyval(np.polyder(quadratic), wanted)
-            best.append((name, diameter, x, float(np.exp(np.polyval(quadratic, wanted))), slope))
-    return best
 
 
 def terms(diameter, x):
     return np.array([1 + 0 * diameter, 1 / diameter, x / diameter, (x / diameter) ** 2]).T
 
 
-def fit_law(best):
-    """constant, single, crowded, narrow with the least squared error of the drag; random packings count twice."""
-    diameter, x, k, slope = (np.array([b[i] for b in best]) for i in (1, 2, 3, 4))
-    weight = (slope + 0.05) / k * np.array([2 if b[0].startswith("random") else 1 for b in best])
-    return np.linalg.lstsq(terms(diameter, x) * weight[:, None], k * weight, rcond=None)[0]
+def fit_round(program, operator, law):
+    return [row for diameters, offsets in FIT_RUNS for packing in ARRAYS + FITTED
+            for row in run(program, [packing], diameters, operator, law, offsets)]
 
 
-def write(path, header, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)
+def column(rows, name):
+    return np.array([float(r[name]) for r in rows])
 
 
-def fit(runs, table, out, figure):
-    drags = zick_homsy(table)
-    rows = {operator: read(runs / f"packings_{operator}.csv") for operator in TAU}
-    finest = collections.defaultdict(list)
-    for operator in rows:
-        for row in rows[operator]:
-            if float(row["diameter_cells"]) > 11:
-                finest[row["packing"]].append(float(row["drag_K"]))
-    for name, values in finest.items():
-        drags[name] = float(np.mean(values))
-    scans, laws, packings = [], {}, []
-    for operator in TAU:
-        best = best_coefficients([row for row in read(runs / f"scans_{operator}.csv") if row["packing"] in drags],
-                                 drags)
-        law = laws[operator] = fit_law(best)
-        print(f"{operator}: constant, single, crowded, narrow = " + ", ".join(f"{v:.3g}" for v in law))
-        for name, diameter, x, k, _ in best:
-            fitted = float(terms(np.array([diameter]), np.array([x]))[0] @ law)
-            scans.append([operator, name, diameter, round(x, 4), round(k, 3), round(fitted, 3)])
-        for row in rows[operator]:
-            if row["packing"] not in drags:
-                continue
-            reference = drags[row["packing"]]
-            error = 100 * (float(row["drag_K"]) / reference - 1)
-            packings.append([operator, row["packing"], row["diameter_cells"], row["crowding"], row["drag_K"],
-                             round(reference, 3), len(finest[row["packing"]]), round(error, 2)])
-    write(out / "coefficient_scans.csv",
-          ["operator", "packing", "diameter_cells", "crowding", "best_coefficient", "fitted_coefficient"], scans)
-    write(out / "coefficient_packings.csv",
-          ["operator", "packing", "diameter_cells", "crowding", "drag_K", "reference_K", "reference_runs",
-           "error_percent"], packings)
-    for row in packings:
-        print("%-5s %-24s D=%-8s K=%-10s error %+5.1f %%" % (row[0], row[1], row[2], row[4], row[7]))
-    if figure:
-        draw(scans, laws, packings, figure)
+def fit(program, operator, data, table, rounds):
+    law = np.array(START[operator], float)
+    rows = fit_round(program, operator, law)
+    larger = column(fit_round(program, operator, 1.1 * law), "drag_K")
+    slope = np.log(larger / column(rows, "drag_K")) / np.log(1.1)
+    drags = reference_drags(data, table)
+    best = None
+    for n in range(rounds + 1):
+        error = np.log(column(rows, "drag_K") / np.array([drags[r["packing"]][0] for r in rows]))
+        diameter, x = column(rows, "diameter_cells"), column(rows, "crowding")
+        allowed = np.interp(diameter, *zip(*ALLOWED)) / 100
+        cost = float(np.mean((error / allowed) ** 2))
+        print(f"{operator} round {n}: {', '.join(f'{v:.4g}' for v in law)}  cost {cost:.4f}", flush=True)
+        if best is None or cost < best[0]:
+            best = cost, law, rows, error
+        if n == rounds:
+            break
+        shape = terms(diameter, x)
+        jacobian = shape * (slope / (shape @ law))[:, None]
+        law = law - np.linalg.lstsq(jacobian / allowed[:, None], error / allowed, rcond=None)[0]
+        rows = fit_round(program, operator, law)
+    _, law, rows, error = best
+    for row, e in zip(rows, error):
+        row["reference_K"] = f"{drags[row['packing']][0]:.4f}"
+        row["error_percent"] = f"{100 * (np.exp(e) - 1):.2f}"
+    write(data / f"coefficient_fit_{operator}.csv", rows)
+    print("constants: " + ", ".join(f"{v:.4g}" for v in law))
 
 
-def draw(scans, laws, packings, figure):
+def report(program, operator, data, table):
+    drags = reference_drags(data, table)
+    held_out = [p for p in HELD_OUT if p in drags]
+    rows = [row for p in held_out for row in run(program, [p], "5,8", operator, None, "0.3,0.8")]
+    for row in rows:
+        drag, doubt = drags[row["packing"]]
+        row["reference_K"], row["reference_doubt_percent"] = f"{drag:.4f}", f"{100 * doubt:.2f}"
+        row["error_percent"] = f"{100 * (float(row['drag_K']) / drag - 1):.2f}"
+        print("%-24s D=%-8s K=%-10s error %6s %%" % (row["packing"], row["diameter_cells"], row["drag_K"], row["error_percent"]))
+    for diameter in (5, 8):
+        errors = np.array([float(r["error_percent"]) for r in rows if abs(float(r["diameter_cells"]) / diameter - 1) < 0.05])
+        print(f"at {diameter}: root mean square {np.sqrt(np.mean(errors ** 2)):.2f} %, largest {abs(errors).max():.2f} %")
+    write(data / f"coefficient_held_out_{operator}.csv", rows)
+    with open(table.parent / "packing_drags.csv", "w", encoding="utf-8") as file:
+        file.write("packing,drag_K,doubt_percent\n")
+        for name in held_out:
+            file.write(f"{name},{drags[name][0]:.4f},{100 * drags[name][1]:.2f}\n")
+
+
+def figure(data, out):
     import matplotlib
 
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    fig, axes = plt.subplots(1, 3, figsize=(11, 3.6))
-    for axis, operator in zip(axes, ("force", "sc3")):
-        for color, diameter in zip(("C0", "C1", "C2", "C3"), (5, 6.5, 8, 11)):
-            near = [a for a in scans if a[0] == operator and abs(a[2] / diameter - 1) < 0.06]
-            for marker, lattice in (("o", "sc"), ("s", "fcc"), ("x", "random")):
-                points = [a for a in near if a[1].startswith(lattice)]
-                axis.plot([a[3] for a in points], [a[4] for a in points], marker, color=color, ms=4)
-            x = np.linspace(0, 1.7, 50)
-            axis.plot(x, terms(diameter + 0 * x, x) @ laws[operator], color=color, label=f"D = {diameter}")
-        axis.set(xlabel="x = D/(6 m)", ylabel="k", title=operator, ylim=(0, None))
-        axis.legend(fontsize=7)
-    for color, operator in zip(("C0", "C1"), ("force", "sc3")):
-        for marker, kinds in (("o", ("random",)), ("^", ("spread", "appendix_c", "gap"))):
-            points = [p for p in packings if p[0] == operator and p[1].startswith(kinds)]
-            axes[2].plot([float(p[2]) for p in points], [p[7] for p in points], marker, color=color, ms=4,
-                         label=f"{operator}, {'equal' if marker == 'o' else 'graded'}")
-    axes[2].axhspan(-3, 3, color="0.9", zorder=0)
-    axes[2].set(xlabel="Sauter diameter in cells", ylabel="error of the drag, %", title="random packings")
-    axes[2].legend(fontsize=7)
+    fig, axis = plt.subplots(figsize=(5, 3.4))
+    groups = (("fit", ARRAYS, "+", "0.6", "arrays, fitted"), ("fit", FITTED, "x", "C0", "random, fitted"),
+              ("held_out", HELD_OUT, "o", "C3", "random, not fitted"))
+    for name, packings, marker, color, label in groups:
+        rows = [r for r in read(data / f"coefficient_{name}_force.csv") if r["packing"] in packings]
+        axis.plot(column(rows, "diameter_cells"), column(rows, "error_percent"), marker, color=color, ms=4, label=label)
+    axis.fill_between([4, 6.5, 6.5, 13], [-3, -3, -2, -2], [3, 3, 2, 2], color="0.9", zorder=0)
+    axis.set(xlabel="Sauter diameter in cells", title="force", ylabel="error of the drag, %", ylim=(-20, 20))
+    axis.legend(fontsize=7)
     fig.tight_layout()
-    fig.savefig(figure, dpi=90)
+    fig.savefig(out, dpi=80)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("run", "fit"))
+    parser.add_argument("what", choices=("references", "fit", "report", "figure"))
     parser.add_argument("--program", type=pathlib.Path)
-    parser.add_argument("--runs", type=pathlib.Path, required=True)
+    parser.add_argument("--operator", choices=("force", "sc3"), default="force")
+    parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--table", type=pathlib.Path, default="tests/data/zick_homsy_1982.csv")
-    parser.add_argument("--out", type=pathlib.Path, default=".")
-    parser.add_argument("--figure", type=pathlib.Path)
+    parser.add_argument("--data", type=pathlib.Path, default="docs/results/data")
+    parser.add_argument("--figure", type=pathlib.Path, default="docs/decisions/solid-operator.png")
+    parser.add_argument("--cache", type=pathlib.Path, help="folder that keeps what runs printed, to go on after an interruption")
     arguments = parser.parse_args()
-    if arguments.what == "run":
-        run(arguments.program, arguments.runs)
+    global CACHE
+    CACHE = arguments.cache
+    if arguments.what == "references":
+        references(arguments.program, arguments.data)
+    elif arguments.what == "fit":
+        fit(arguments.program, arguments.operator, arguments.data, arguments.table, arguments.rounds)
+    elif arguments.what == "report":
+        report(arguments.program, arguments.operator, arguments.data, arguments.table)
     else:
-        fit(arguments.runs, arguments.table, arguments.out, arguments.figure)
+        figure(arguments.data, arguments.figure)
 
 
 if __name__ == "__main__":

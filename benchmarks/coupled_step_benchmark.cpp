@@ -2,8 +2,9 @@
 // in-place update of the fluid's 19 arrays timed in turns within one run. Spheres are moved at given
 // velocities: the discrete-element code is not part of this (see dense_bed.py for the whole).
 //
-//   coupled_step_benchmark             one core
-//   mpirun -np 2 coupled_step_benchmark
+//   coupled_step_benchmark                    one core
+//   scripts/mpirun 2 .../coupled_step_benchmark   two
+//   coupled_step_benchmark --write_bed FILE   the spheres' centres, a line each, cells
 //
 // The scene: 7,958 equal spheres of 5 cells diameter, at random without overlap, in 84 x 84 x 168 cells with
 // no-slip walls (solid fraction 0.439).
@@ -11,7 +12,7 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <chrono>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -141,6 +142,13 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (argc == 3 && std::string(argv[1]) == "--write_bed") {
+    std::ofstream file(argv[2]);
+    for (const auto& grain : bed())
+      file << grain.position[0] << ' ' << grain.position[1] << ' ' << grain.position[2] << '\n';
+    MPI_Finalize();
+    return file.good() ? 0 : 1;
+  }
   benchmark::Initialize(&argc, argv);
   std::vector<Scene> scenes;
   for (const lbm::Precision precision : {lbm::Precision::double_precision, lbm::Precision::float_precision}) {

@@ -11,6 +11,7 @@
 #include "commands/hydraulic_command.h"
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
+#include "commands/verdict_command.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_fluidisation(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
+  suffuse::analysis::add_verdict(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
     return 0;

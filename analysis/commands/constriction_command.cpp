@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "commands/constriction_table.h"
 #include "commands/criteria_table.h"
 #include "suffuse/analysis/grain_snapshot.h"
 #include "suffuse/analysis/packing_constrictions.h"
@@ -32,52 +33,6 @@ struct Options {
   double merge_overlap = 0.5, coarser_than = 0;
   std::vector<std::string> limits;
 };
-
-const std::map<std::string, FractionBy> kFractions{
-    {"mass", FractionBy::mass}, {"number", FractionBy::number}, {"surface-area", FractionBy::surface_area}};
-const std::map<std::string, LoosePore> kPores{{"inscribed", LoosePore::inscribed},
-                                              {"equal-area", LoosePore::equal_area}};
-
-/// A distribution over the shares 0, 1, … 100 %, by all three fractions, and that of the packing beside it.
-void write_distribution(SafeFile& file, const Options& options,
-                        const std::optional<ConstrictionAnalysis>& analysis,
-                        const std::optional<SizeDistribution>& packing) {
-  std::map<std::string, micromechanics::ConstrictionSizes> sizes;
-  std::string header = "percent_finer";
-  if (analysis)
-    for (const auto& [name, by] : kFractions) {
-      sizes[name] = micromechanics::constriction_sizes(analysis->coarse, by, options.analysis.pore);
-      const std::string column = name == "surface-area" ? "surface_area" : name;
-      header += fmt::format(",dense_by_{0}_m,loose_by_{0}_m,at_density_by_{0}_m", column);
-    }
-  if (packing) header += ",packing_m";
-  file.write(header + "\n");
-  for (int percent = 0; percent <= 100; ++percent) {
-    const double share = percent / 100.0;
-    std::string row = fmt::format("{}", percent);
-    for (const auto& [name, one] : sizes)
-      row += fmt::format(",{},{},{}", one.dense.quantile(share), one.loose.quantile(share),
-                         one.at(share, options.analysis.relative_density));
-    if (packing) row += fmt::format(",{}", packing->quantile(share));
-    file.write(row + "\n");
-  }
-}
-
-/// Ratio, Z and α over the whole range of relative density.
-void write_prediction(SafeFile& file, const micromechanics::Grading& grading, ConstrictionOptions options,
-                      const micromechanics::ConstrictionLimits& limits,
-                      const micromechanics::StabilityLimits& stability) {
-  file.write(
-      "relative_density,split_percent_finer,controlling_constriction_m,largest_erodible_m,ratio,"
-      "coordination_number,stress_reduction\n");
-  for (int step = 0; step <= 20; ++step) {
-    options.relative_density = step / 20.0;
-    const auto one = micromechanics::analyse_constrictions(grading, options, limits, stability);
-    file.write(fmt::format("{},{},{},{},{},{},{}\n", options.relative_density, 100 * one.split.finer,
-                           one.controlling, one.largest_erodible, one.ratio(), one.coordination,
-                           one.stress_reduction));
-  }
-}
 
 void write_discs(SafeFile& file, const PackingConstrictions& found) {
   file.write("x_m,y_m,z_m,normal_x,normal_y,normal_z,diameter_m\n");
@@ -138,17 +93,17 @@ void check(Options& options) {
                       "give one before --packing"});
   if (options.packing.empty() && !options.discs.empty())
     throw_user_error({kWho, "--discs", options.discs, "have a packing", "give --packing"});
-  options.analysis.fractions = kFractions.at(options.fractions);
-  options.analysis.pore = kPores.at(options.pore);
+  options.analysis.fractions = fraction_names().at(options.fractions);
+  options.analysis.pore = pore_names().at(options.pore);
   if (options.analysis.classes < 2 || options.analysis.classes > 40)
     throw_user_error({kWho, "--classes", fmt::format("{}", options.analysis.classes), "be 2 to 40", ""});
 }
 
 void run(Options& options) {
   check(options);
-  const micromechanics::ConstrictionLimits limits;
+  micromechanics::ConstrictionLimits limits;
   micromechanics::StabilityLimits stability;
-  set_limits(options.limits, kWho, stability);
+  set_limits(options.limits, kWho, stability, &limits);
   std::optional<micromechanics::Grading> grading;
   std::optional<ConstrictionAnalysis> analysis;
   std::vector<micromechanics::CriterionResult> results;
@@ -173,8 +128,8 @@ void run(Options& options) {
   if (!options.output.empty())
     write_criteria(output.emplace(options.output, "constriction --output"), results);
   if (!options.distribution.empty())
-    write_distribution(distribution.emplace(options.distribution, "constriction --distribution"), options,
-                       analysis, of_packing);
+    write_distribution(distribution.emplace(options.distribution, "constriction --distribution"),
+                       options.analysis, analysis, of_packing);
   if (!options.prediction.empty())
     write_prediction(prediction.emplace(options.prediction, "constriction --prediction"), *grading,
                      options.analysis, limits, stability);
@@ -186,8 +141,8 @@ void run(Options& options) {
 
 void add_grading_options(CLI::App& command, Options& options) {
   std::vector<std::string> fractions, pores;
-  for (const auto& [name, value] : kFractions) fractions.push_back(name);
-  for (const auto& [name, value] : kPores) pores.push_back(name);
+  for (const auto& [name, value] : fraction_names()) fractions.push_back(name);
+  for (const auto& [name, value] : pore_names()) pores.push_back(name);
   command.add_option("PSD", options.grading, "grading: CSV file or dump of grains, as in `grading`");
   command.add_option("--relative-density", options.analysis.relative_density, "0 (loosest) to 1 (densest)")
       ->capture_default_str();
@@ -203,7 +158,9 @@ void add_grading_options(CLI::App& command, Options& options) {
   command.add_option("--porosity", options.analysis.porosity, "of the soil, for Kovacs's criterion");
   command.add_option("--classes", options.analysis.classes, "the grading is read as at most so many classes")
       ->capture_default_str();
-  command.add_option("--limit", options.limits, "another limit of the grading's criteria, name=value");
+  command.add_option("--limit", options.limits,
+                     "another limit, of these criteria or of the split's rule, name=value, such as "
+                     "chapter_4=0.8; may be repeated");
 }
 
 }  // namespace

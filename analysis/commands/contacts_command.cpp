@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "commands/force_table.h"
 #include "commands/read_options.h"
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/record_table.h"
@@ -51,18 +52,6 @@ void check(Options& options) {
   in_range(measures.force_bins.width > 0, "--force-bin", measures.force_bins.width, "be > 0");
   in_range(measures.force_bins.count >= 1 && measures.force_bins.count <= 100000, "--force-bins",
            measures.force_bins.count, "be 1 to 100000");
-}
-
-void write_force_pdf(CsvWriter& writer, std::int64_t step, const micromechanics::ForceBins& bins,
-                     const micromechanics::ForceDistribution& forces) {
-  for (std::size_t bin = 0; bin < forces.normal.size(); ++bin)
-    writer.write({{"step", static_cast<double>(step)},
-                  {"force_over_mean_low", static_cast<double>(bin) * bins.width},
-                  {"force_over_mean_high", static_cast<double>(bin + 1) * bins.width},
-                  {"density_normal", forces.normal[bin]},
-                  {"density_tangential", forces.tangential[bin]},
-                  {"mean_normal_force_n", forces.mean_normal},
-                  {"mean_tangential_force_n", forces.mean_tangential}});
 }
 
 std::vector<ScreenTable::Column> screen_columns() {

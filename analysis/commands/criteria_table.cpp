@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "suffuse/analysis/grading_file.h"
 #include "suffuse/analysis/grain_snapshot.h"
@@ -59,22 +60,24 @@ void write_criteria(SafeFile& file, const std::vector<CriterionResult>& results)
 }
 
 void set_limits(const std::vector<std::string>& words, const std::string& who,
-                micromechanics::StabilityLimits& limits) {
+                micromechanics::StabilityLimits& limits, micromechanics::ConstrictionLimits* constriction) {
+  std::map<std::string_view, double*> known;
+  for (const auto& one : micromechanics::limit_names()) known[one.name] = &(limits.*(one.member));
+  if (constriction != nullptr)
+    for (const auto& one : micromechanics::constriction_limit_names())
+      known[one.name] = &(constriction->*(one.member));
   for (const std::string& word : words) {
     const auto equals = word.find('=');
     double value = 0;
     if (equals == std::string::npos || !parse_number(word.substr(equals + 1), value) || !std::isfinite(value))
       throw_user_error({who, "--limit", word, "be name=number", "such as kezdi=5"});
-    const auto& names = micromechanics::limit_names();
-    const auto found = std::find_if(names.begin(), names.end(), [&](const micromechanics::LimitName& known) {
-      return known.name == word.substr(0, equals);
-    });
-    if (found == names.end()) {
+    const auto found = known.find(word.substr(0, equals));
+    if (found == known.end()) {
       std::string all;
-      for (const auto& known : names) all += fmt::format("{}{}", all.empty() ? "" : ", ", known.name);
+      for (const auto& [name, limit] : known) all += fmt::format("{}{}", all.empty() ? "" : ", ", name);
       throw_user_error({who, "--limit", word, "name a limit", "one of " + all});
     }
-    limits.*(found->member) = value;
+    *found->second = value;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "suffuse/analysis/safe_file.h"
+#include "suffuse/micromechanics/constriction_criteria.h"
 #include "suffuse/micromechanics/internal_stability.h"
 
 namespace suffuse::analysis {
@@ -16,10 +17,11 @@ std::string criteria_text(const std::vector<micromechanics::CriterionResult>& re
 /// does not apply.
 void write_criteria(SafeFile& file, const std::vector<micromechanics::CriterionResult>& results);
 
-/// Sets limits from words `name=value`. Throws UserError on an unknown name (with the known ones) or no
-/// number.
+/// Sets limits from words `name=value`: of the criteria on the grading, and of those on constrictions where
+/// given. Throws UserError on an unknown name (with the known ones) or no number.
 void set_limits(const std::vector<std::string>& words, const std::string& who,
-                micromechanics::StabilityLimits& limits);
+                micromechanics::StabilityLimits& limits,
+                micromechanics::ConstrictionLimits* constriction = nullptr);
 
 /// A grading from a CSV file or from the grains of a dump (its last snapshot).
 micromechanics::Grading grading_of_file(const std::string& path, const std::string& who);

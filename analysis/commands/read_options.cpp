@@ -10,12 +10,15 @@
 namespace suffuse::analysis {
 
 void ReadOptions::add_to(CLI::App& command) {
+  add_to(command, "files");
+  command.get_option("files")->required();
+}
+
+void ReadOptions::add_to(CLI::App& command, const std::string& files_option) {
   settings.who = command.get_name();
-  command
-      .add_option("files", files,
-                  "LIGGGHTS dumps of the grains (dump custom) and of the contacts (dump local of compute "
-                  "pair/gran/local), text or gzip, in any order, patterns too; or one of our HDF5 files")
-      ->required();
+  command.add_option(files_option, files,
+                     "LIGGGHTS dumps of the grains (dump custom) and of the contacts (dump local of compute "
+                     "pair/gran/local), text or gzip, in any order, patterns too; or one of our HDF5 files");
   command.add_option(
       "--pair-values", pair_values,
       "words of the script's compute pair/gran/local, if not guessed rightly: \"pos id force …\"");

@@ -17,6 +17,8 @@ struct ReadOptions {
   double volume = 0;
 
   void add_to(CLI::App& command);
+  /// With the files under another name, such as an option's, which may be missing.
+  void add_to(CLI::App& command, const std::string& files_option);
   /// Opens the files. Throws UserError on options that make no sense.
   std::unique_ptr<SnapshotSeries> open();
 };

@@ -12,6 +12,7 @@
 #include "suffuse/analysis/thesis_tables.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
+#include "suffuse/micromechanics/microscale_verdicts.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -40,9 +41,9 @@ struct Comparison {
 };
 
 const char* verdict_of(std::optional<double> z, std::optional<double> alpha) {
-  const micromechanics::ConstrictionLimits limits;
+  using namespace micromechanics;
   if (!z || !alpha) return "unknown";
-  return *z <= limits.coordination || *alpha <= limits.stress_reduction ? "unstable" : "stable";
+  return to_string(microscale_verdict(*z, *alpha, BoundaryWording::either));
 }
 
 /// The last snapshot of a sample.

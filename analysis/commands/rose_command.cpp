@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "commands/read_options.h"
+#include "commands/rose_table.h"
 #include "suffuse/analysis/figure_script.h"
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/record_table.h"
@@ -59,40 +60,6 @@ struct Sums {
     contacts += fabric.contacts;
   }
 };
-
-/// A distribution over the bins and its fit.
-struct Rose {
-  const char* name;
-  const char* unit;
-  std::vector<double> values;
-  HarmonicFit fit;
-};
-
-std::vector<Rose> roses_of(const PlaneDistribution& plane, int order) {
-  std::vector<Rose> roses{{"contact_density", "_per_rad", plane.contact_density(), {}},
-                          {"normal_force_density", "_per_rad", plane.normal_force_density(), {}},
-                          {"mean_normal_force", "_over_f0", plane.mean_normal_force(), {}},
-                          {"mean_tangential_force", "_over_f0", plane.mean_tangential_force(), {}}};
-  for (Rose& rose : roses)
-    rose.fit = &rose == &roses.back() ? fit_harmonics_absolute(rose.values, order)
-                                      : fit_harmonics(rose.values, order);
-  return roses;
-}
-
-void write_rose(const std::string& path, const PlaneDistribution& plane, const std::vector<Rose>& roses) {
-  SafeFile file(path, kWho);
-  std::string header = "angle_low_rad,angle_high_rad,contacts";
-  for (const Rose& rose : roses) header += fmt::format(",{0}{1},{0}_fit{1}", rose.name, rose.unit);
-  file.write(header + '\n');
-  for (int bin = 0; bin < plane.bins(); ++bin) {
-    const auto b = static_cast<std::size_t>(bin);
-    std::string line =
-        fmt::format("{},{},{}", bin * plane.width(), (bin + 1) * plane.width(), plane.contacts[b]);
-    for (const Rose& rose : roses) line += fmt::format(",{},{}", rose.values[b], rose.fit(plane.centre(bin)));
-    file.write(line + '\n');
-  }
-  file.commit();
-}
 
 void write_fits(const std::string& path, const std::vector<Rose>& roses, int bins) {
   SafeFile file(path, kWho);
@@ -197,7 +164,7 @@ void run(Options& options) {
   const SphericalGrid grid(options.cells);
   const Sums sums = gathered(options, grid);
   const std::vector<Rose> roses = roses_of(sums.plane, options.order);
-  if (!options.output.empty()) write_rose(options.output, sums.plane, roses);
+  if (!options.output.empty()) write_rose(options.output, sums.plane, roses, kWho);
   if (!options.fits.empty()) write_fits(options.fits, roses, options.bins);
   if (!options.sphere.empty()) write_sphere(options.sphere, sums, grid);
   print_fits(sums, options, roses);

@@ -4,8 +4,9 @@
 From the files that `suffuse-analyse grading PSD --curve CURVE.csv --shape SHAPE.csv` writes:
 
   grading.py CURVE.csv [CURVE.csv ...] [--shape SHAPE.csv ...] --output FIGURE.pdf [--names A B ...]
+  grading.py --shape SHAPE.csv [SHAPE.csv ...] --output FIGURE.pdf
 
-A figure has one panel, or two with --shape; the ending of --output says the format (png, pdf, svg).
+A panel for the curves, one for the shapes; the ending of --output says the format (png, pdf, svg).
 """
 import argparse
 import pathlib
@@ -26,21 +27,22 @@ def draw_shape(axes, series, name):
     axes.plot([f for f, _ in inside], [h for _, h in inside], color=line.get_color(), linewidth=2, label=name)
 
 
-def draw(curves, shapes, names, output):
+def draw(curves, shapes, names, options):
     import suffuse_style as style
     from matplotlib import pyplot
 
-    panels = 2 if shapes else 1
-    figure, axes = pyplot.subplots(panels, 1, figsize=(style.COLUMN_WIDTH, 3.0 * panels), squeeze=False)
+    panels = bool(curves) + bool(shapes)
+    figure, axes = pyplot.subplots(panels, 1, figsize=(style.width_of(options), 3.0 * panels), squeeze=False)
     for series, name in zip(curves, names):
         draw_curve(axes[0, 0], series, name)
-    axes[0, 0].set(xscale="log", xlabel="grain diameter d (mm)", ylabel="finer by mass (%)", ylim=(0, 100))
-    axes[0, 0].xaxis.set_major_formatter("{x:g}")
-    axes[0, 0].grid(True, which="both")
+    if curves:
+        axes[0, 0].set(xscale="log", xlabel="grain diameter d (mm)", ylabel="finer by mass (%)", ylim=(0, 100))
+        style.plain_log_ticks(axes[0, 0].xaxis)
+        axes[0, 0].grid(True, which="both")
     if len(curves) > 1:
         axes[0, 0].legend()
     if shapes:
-        panel = axes[1, 0]
+        panel = axes[-1, 0]
         for series, name in zip(shapes, names):
             draw_shape(panel, series, name)
         limit = shapes[0]["limit_ratio"][0]
@@ -54,18 +56,21 @@ def draw(curves, shapes, names, output):
         panel.set(xlabel="F, finer than d (% of the mass)", ylabel="H, between d and 4d (%)", xlim=(0, 60), ylim=(0, 100))
         if len(shapes) > 1:
             panel.legend()
-    style.save(figure, output)
+    style.save(figure, options.output)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("curves", nargs="+", help="CSV files of cumulative curves")
+    parser.add_argument("curves", nargs="*", help="CSV files of cumulative curves")
     parser.add_argument("--shape", nargs="+", default=[], help="CSV files of shape curves, in the order of the curves")
     parser.add_argument("--names", nargs="+", help="what the soils are called; their files' names if not given")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    parser.add_argument("--width", type=float, help="of the figure, inches")
     options = parser.parse_args()
-    names = options.names or [pathlib.Path(path).stem for path in options.curves]
-    if len(names) != len(options.curves) or len(options.shape) not in (0, len(options.curves)):
+    if not options.curves and not options.shape:
+        parser.error("nothing to draw: give curves, --shape, or both")
+    names = options.names or [pathlib.Path(path).stem for path in options.curves or options.shape]
+    if any(len(files) not in (0, len(names)) for files in (options.curves, options.shape)):
         parser.error("as many --names and --shape files as curves, please")
     curves = [TimeSeries(path) for path in options.curves]
     for series in curves:
@@ -73,7 +78,7 @@ def main():
     shapes = [TimeSeries(path) for path in options.shape]
     for series in shapes:
         series.require("finer_percent", "interval_percent", "searched_to_percent", "limit_ratio")
-    draw(curves, shapes, names, options.output)
+    draw(curves, shapes, names, options)
 
 
 if __name__ == "__main__":

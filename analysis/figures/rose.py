@@ -27,14 +27,19 @@ def fine_fit(series, name, unit):
     return angle, values.mean() + sum(c * np.cos(k * angle) + s * np.sin(k * angle) for k, c, s in spectrum)
 
 
-def draw_rose(path, plane, output):
+def draw_rose(path, plane, options):
     import suffuse_style as style
 
     series = TimeSeries(path)
     series.require("angle_low_rad", "angle_high_rad", *(f"{name}{unit}" for name, unit, _ in ROSES))
-    figure, axes = style.plt.subplots(1, len(ROSES), figsize=(8.4, 3.3), subplot_kw={"projection": "polar"})
+    roses = ROSES[:options.panels]
+    if options.width:  # narrow: one above the other
+        shape, size = (len(roses), 1), (options.width, 0.85 * options.width * len(roses))
+    else:
+        shape, size = (1, len(roses)), (2.8 * len(roses), 3.3)
+    figure, axes = style.plt.subplots(*shape, figsize=size, subplot_kw={"projection": "polar"}, squeeze=False)
     low, high = series["angle_low_rad"], series["angle_high_rad"]
-    for panel, (name, unit, title) in zip(axes, ROSES):
+    for panel, (name, unit, title) in zip(axes.flat, roses):
         values = series[f"{name}{unit}"]
         signed = min(values) < 0
         bars = panel.bar(low, [abs(v) for v in values], width=[b - a for a, b in zip(low, high)], align="edge", linewidth=0.4, edgecolor="white")
@@ -46,12 +51,12 @@ def draw_rose(path, plane, output):
         panel.set_axisbelow(False)
         panel.yaxis.set_major_locator(style.plt.MaxNLocator(3))
         panel.set_rlabel_position(22.5)
-        panel.tick_params(labelsize=6.5)
+        panel.tick_params(labelsize=8 if options.width else 6.5)
         panel.set_xticks([k * math.pi / 4 for k in range(8)])
         panel.set_xticklabels([plane[0], "45°", plane[1], "135°", "180°", "", "270°", ""])
         if signed:
             panel.annotate("blue: anticlockwise, orange: clockwise", xy=(0.5, -0.2), xycoords="axes fraction", ha="center", fontsize=6.5)
-    style.save(figure, output)
+    style.save(figure, options.output)
 
 
 def lambert(cos_polar, azimuth):
@@ -100,13 +105,15 @@ def main():
     parser.add_argument("--sphere", help="CSV file of suffuse-analyse rose --sphere")
     parser.add_argument("--plane", default="xz", choices=("xy", "xz", "yz"), help="names of the axes")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    parser.add_argument("--panels", type=int, choices=(1, 2, 3), default=3, help="how many of contacts, normal and tangential forces")
+    parser.add_argument("--width", type=float, help="of the rose's figure, inches; its panels then stand one above the other")
     options = parser.parse_args()
     if bool(options.rose) == bool(options.sphere):
         parser.error("give either the CSV file of a rose, or --sphere and that of a spherical histogram")
     if options.sphere:
         draw_sphere(options.sphere, options.output)
     else:
-        draw_rose(options.rose, options.plane, options.output)
+        draw_rose(options.rose, options.plane, options)
 
 
 if __name__ == "__main__":

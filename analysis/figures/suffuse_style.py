@@ -28,10 +28,16 @@ plt.rcParams.update({
     "grid.color": "#e4e4e4",
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.4,
+    "svg.hashsalt": "suffuse",  # the same figure is the same file
     "legend.frameon": False,
 })
 
 COLUMN_WIDTH = 5.2  # inches; a figure this wide reads well in a page of text
+
+
+def width_of(options):
+    """Of the figure, inches: what --width says, or the column's. 4.2 reads well on a phone too."""
+    return options.width or COLUMN_WIDTH
 
 
 def stacked_panels(count, panel_height=1.55):
@@ -47,8 +53,17 @@ def reference_line(axes, value, label):
                   ha="right", va="bottom", fontsize=8, color=REFERENCE["color"])
 
 
+def plain_log_ticks(axis):
+    """Numbers as people write them on a logarithmic axis, few enough not to touch each other."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=12))
+    axis.set_major_formatter("{x:g}")
+    axis.set_minor_formatter(NullFormatter())
+
+
 def save(figure, path):
     """Writes the figure; the format is that of the file's ending."""
     pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path)
+    figure.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
     plt.close(figure)

@@ -1,4 +1,7 @@
-"""Reads the time series that runs leave: CSV, one header row of names with units, SI, lines that start with # left out."""
+"""Reads the time series that runs leave: CSV, one header row of names with units, SI, lines that start with # left out.
+
+An empty cell, a number that is not defined there, is read as NaN.
+"""
 import csv
 import math
 import sys
@@ -23,7 +26,7 @@ class TimeSeries:
                 sys.exit(f"{path}: row {number} has {len(row)} values, the header {len(header)} names; is the run still writing?")
             for name, text in zip(header, row):
                 try:
-                    value = float(text)
+                    value = float(text) if text.strip() else math.nan
                 except ValueError:
                     sys.exit(f"{path}: row {number}, {name}: '{text}' is no number")
                 self.columns[name].append(value)

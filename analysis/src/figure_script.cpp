@@ -49,11 +49,14 @@ std::string find_script(const std::string& script, const std::string& who) {
                     "set SUFFUSE_FIGURES to the folder share/suffuse/figures of the installation"});
 }
 
+/// Looked for once: trying out matplotlib takes half a second.
 std::string find_python(const std::string& who) {
+  static std::string found;
+  if (!found.empty()) return found;
   std::vector<std::string> candidates{"python3", "/usr/bin/python3"};
   if (const char* given = std::getenv("SUFFUSE_PYTHON")) candidates.insert(candidates.begin(), given);
   for (const std::string& python : candidates)
-    if (run({python, "-c", "import matplotlib"}, true) == 0) return python;
+    if (run({python, "-c", "import matplotlib"}, true) == 0) return found = python;
   throw_user_error({who, "figure", "python3", "have matplotlib",
                     "install it (apt-get install python3-matplotlib), or name a Python in SUFFUSE_PYTHON"});
 }

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "suffuse/common/error.h"
+
 namespace suffuse {
 
 namespace {
@@ -69,6 +71,11 @@ void select(hid_t space, const ArrayPart& part) {
          "select a part");
 }
 
+/// An array without values: there is nothing to write or read.
+bool nothing_in(const ArrayPart& part) {
+  return std::find(part.whole.begin(), part.whole.end(), std::size_t{0}) != part.whole.end();
+}
+
 std::size_t volume(const ArrayPart& part) {
   std::size_t product = 1;
   for (const std::size_t n : part.count) product *= n;
@@ -117,8 +124,11 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
   else
     handle_->file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
   if (handle_->file < 0)
-    throw std::runtime_error((mode == Mode::read ? "cannot read HDF5 file " : "cannot write HDF5 file ") +
-                             path);
+    throw_user_error(
+        {"HDF5", "file", path,
+         mode == Mode::read ? "be a readable HDF5 file" : "be writable, and HDF5 where it is continued",
+         mode == Mode::read ? "it may be damaged or of another kind"
+                            : "check its folder, or take another name"});
 }
 
 Hdf5File::~Hdf5File() {
@@ -170,6 +180,7 @@ template <class T>
 void Hdf5File::write(const std::string& dataset, const ArrayPart& part, const std::vector<T>& values) {
   if (values.size() != volume(part))
     throw std::logic_error("Hdf5File::write: " + dataset + " has another size");
+  if (nothing_in(part)) return;
   const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
   const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
   select(file_space, part);

@@ -23,7 +23,7 @@ void ProgressLine::update(double done, const std::string& details) {
 
 void ProgressLine::finish(const std::string& details) {
   if (!speaks_) return;
-  print(1, details);
+  if (terminal_ || tenths_ < 10) print(1, details);
   if (terminal_) std::fputc('\n', stderr);
 }
 
@@ -40,6 +40,8 @@ void ProgressLine::print(double done, const std::string& details) {
 
 std::string duration_text(double seconds) {
   if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  constexpr double year = 365.25 * 86400;
+  if (!(seconds < 10 * year)) return fmt::format("{:.3g} years", seconds / year);
   const long whole = static_cast<long>(seconds);
   if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,11 @@ int run_script(int argc, char** argv, int rank) {
         std::fflush(lmp->logfile);
       }
     }
+    return 1;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "suffuse: error: rank {} is out of memory; use a larger spacing or more machines\n",
+               rank);
+    MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   } catch (const std::exception& failure) {
     fmt::print(stderr, "suffuse: internal error on rank {}: {}\n", rank, failure.what());

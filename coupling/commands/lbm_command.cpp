@@ -130,6 +130,9 @@ void LbmCommand::require_lattice(const std::string& who) const {
   if (!settings_.lattice_given)
     throw_user_error({who, "lattice", "none", "be defined before",
                       "write `lbm lattice spacing 4e-5 relaxation_time 0.8`"});
+  if (std::string(lmp_->update->unit_style) != "si")
+    throw_user_error(
+        {who, "units", lmp_->update->unit_style, "be si", "write `units si` at the script's head"});
   if (lmp_->domain->box_exist == 0)
     throw_user_error({who, "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});
 }
@@ -145,7 +148,10 @@ void LbmCommand::restart(ArgumentReader& reader) {
     state_to_read_ = file;
   } else if (mode == "write") {
     if (reader.accept("every")) {
-      settings_.checkpoint = CheckpointRequest{file, reader.positive("every")};
+      const CheckpointRequest checkpoint{file, reader.positive("every")};
+      settings_.checkpoint.reset();
+      refuse_shared_files(reader, settings_, {file, file + ".grains"});
+      settings_.checkpoint = checkpoint;
     } else if (simulation_ == nullptr) {
       throw_user_error(
           {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
@@ -209,6 +215,13 @@ void LbmCommand::build() {
   if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
   if (!state_to_read_.empty()) {
     lbm::load_state(simulation_->fluid(), state_to_read_);
+    if (port_->anything_moves() && !port_->loads_restored())
+      throw_user_error(
+          {"lbm restart", "read " + state_to_read_, "without the loads of the grains",
+           "find them as they were saved",
+           "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
+           "`run` and `dem_timestep`"});
+    if (port_->anything_moves()) require_grains_of(lmp_, state_to_read_);
     continued_at_ = simulation_->time_si();
   }
 }
@@ -243,6 +256,12 @@ void LbmCommand::add_lubrication(const CoupledSimulation& simulation) {
 /// equal ones as it needs, or as `substeps` says.
 int LbmCommand::choose_substeps() {
   const double fluid_step = lbm::Units(settings_.coupled.units).time_step(), largest = lmp_->update->dt;
+  constexpr double most = 1e6;
+  if (!(largest > 0) || fluid_step / largest > most)
+    throw_user_error(
+        {"lbm run", "timestep", fmt::format("{:g} s", largest),
+         fmt::format("be > 0 and at least a millionth of the fluid's step, {:.6g} s", fluid_step),
+         "`dem_timestep rayleigh 0.15` sets what the contacts allow"});
   const int needed = std::max(1, static_cast<int>(std::ceil(fluid_step / largest * (1 - 1e-9))));
   const int asked = settings_.coupled.substeps;
   if (asked > 0 && asked < needed)

@@ -9,6 +9,7 @@
 #include "comm.h"
 #include "lammps.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/coupling/automatic_coefficient.h"
 #include "timer.h"
 #include "update.h"
 
@@ -19,21 +20,26 @@ namespace {
 /// Grain steps a second and core where this process has not run any yet (docs/performance_dry.md).
 constexpr double kGrainStepsPerSecond = 4.5e6;
 
-/// The grains, held: steps of the trial move nothing.
+/// The grains, held: steps of the trial move nothing, and loads go nowhere.
 class HeldGrains final : public ParticlePort {
  public:
-  explicit HeldGrains(ParticlePort& port) : port_(port) {}
-  GrainArrays grains() override { return port_.grains(); }
-  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override {
-    port_.sum_over_copies(force, torque);
+  HeldGrains(ParticlePort& port, bool reads_loads) : port_(port), reads_loads_(reads_loads) {}
+  GrainArrays grains() override {
+    const GrainArrays arrays = port_.grains();
+    load_.resize(6 * static_cast<std::size_t>(arrays.owned));
+    history_.resize(kHistoryLength * static_cast<std::size_t>(arrays.owned));
+    return arrays;
   }
-  GrainMemory memory() override { return port_.memory(); }  // coefficients are kept there, as a run would
-  bool reads_loads(int) override { return false; }
+  void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
+  GrainMemory memory() override { return {load_.data(), history_.data()}; }
+  bool reads_loads(int) override { return reads_loads_; }
   double time_step() const override { return port_.time_step(); }
   void advance(int) override {}
 
  private:
   ParticlePort& port_;
+  bool reads_loads_;
+  std::vector<double> load_, history_;
 };
 
 double slowest(double mine, MPI_Comm communicator) {
@@ -49,7 +55,7 @@ struct Costs {
 Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, const Vec3& low,
               LiggghtsPort& port, bool grains_move) {
   const MPI_Comm communicator = parts.communicator();
-  HeldGrains held(port);
+  HeldGrains held(port, grains_move);
   CoupledSettings trial = settings;
   trial.solids.remap_distance = -1;  // every grain is mapped in every step, as if it moved
   CoupledSimulation simulation(trial, parts, low, held);
@@ -61,15 +67,17 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
   costs.fluid = slowest(simulation.times().fluid, communicator) / steps;
   if (grains_move) {
     costs.mapping = slowest(simulation.times().mapping, communicator) / steps;
-    const double start = MPI_Wtime();
-    LatticeLoad all;
-    for (const std::size_t n : simulation.mapping().order())
-      all.force[0] += simulation.mapping().load_of(n, simulation.units().relaxation_time()).force[0];
-    costs.exchange = slowest(MPI_Wtime() - start + 1e-30 * std::abs(all.force[0]), communicator);
+    costs.exchange = slowest(simulation.times().exchange, communicator) / steps;
   }
   costs.bytes = static_cast<double>(simulation.fluid().bytes() + simulation.mapping().bytes());
   MPI_Allreduce(MPI_IN_PLACE, &costs.bytes, 1, MPI_DOUBLE, MPI_SUM, communicator);
   return costs;
+}
+
+std::string error_line(double cells) {
+  return fmt::format(
+      "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %)\n",
+      100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells));
 }
 
 }  // namespace
@@ -99,6 +107,11 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
         fmt::format("lbm plan: {} grains, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}\n",
                     grains.grains, 2 * grains.smallest_radius / units.spacing(),
                     2 * grains.largest_radius / units.spacing(), grains.sauter_diameter / units.spacing());
+  const SolidSettings& solids = settings.solids;
+  const bool calibrated = solids.automatic_coefficient &&
+                          solids.cells.solid_operator == lbm::SolidOperator::force &&
+                          solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  if (grains.grains > 0 && calibrated) text += error_line(grains.sauter_diameter / units.spacing());
   text += fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
   const auto row = [&](const char* name, double seconds) {
     text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));

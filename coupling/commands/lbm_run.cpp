@@ -94,9 +94,15 @@ bool LbmRun::is_steady(double share) {
 void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
                  std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
-  const long steps = std::max(1L, std::lround(units.time_to_lattice(request.time)));
+  const long steps = steps_in(request.time, units);
+  if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
+      dem_steps > MAXSMALLINT)
+    throw_user_error({"lbm run", "time",
+                      fmt::format("{:g} s, which are {:.3g} DEM steps", request.time, dem_steps),
+                      fmt::format("be at most {:.3g} DEM steps", static_cast<double>(MAXSMALLINT)),
+                      "split it in several `lbm run`"});
   const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, std::lround(units.time_to_lattice(window)));
+  const long steady_every = std::max(10L, steps_in(window, units));
   port_.begin(steps * simulation_.substeps());
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();

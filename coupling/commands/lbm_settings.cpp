@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "domain.h"
@@ -164,9 +166,12 @@ void read_collision(ArgumentReader& reader, LbmSettings& settings) {
                                       {"trt", lbm::CollisionOperator::trt},
                                       {"central_moments", lbm::CollisionOperator::central_moments}});
   while (!reader.done()) {
-    if (reader.accept("magic"))
+    if (reader.accept("magic")) {
+      if (collision.collision_operator != lbm::CollisionOperator::trt)
+        throw_user_error({reader.who(), "magic", "given", "go with trt",
+                          "drop it, or write `lbm collision trt magic ...`"});
       collision.magic = reader.positive("magic");
-    else if (reader.accept("incompressible"))
+    } else if (reader.accept("incompressible"))
       collision.incompressible = choose<bool>(reader, "incompressible", kYesNo);
     else
       reader.unknown(reader.word("keyword"), "magic, incompressible");
@@ -254,7 +259,12 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   double largest_mach = settings.largest_mach;
   while (!reader.done()) {
     if (reader.accept("substeps")) {
-      substeps = reader.accept("auto") ? 0 : static_cast<int>(reader.positive_integer("substeps"));
+      constexpr std::int64_t most = 1000000;
+      const std::int64_t n = reader.accept("auto") ? 0 : reader.positive_integer("substeps");
+      if (n > most)
+        throw_user_error({reader.who(), "substeps", fmt::format("{}", n), fmt::format("be at most {}", most),
+                          "`auto` takes as many as the script's `timestep` needs"});
+      substeps = static_cast<int>(n);
     } else if (reader.accept("average_force")) {
       average = choose<bool>(reader, "average_force", kYesNo);
     } else if (reader.accept("virtual_mass")) {
@@ -286,7 +296,9 @@ void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
   }
   for (const MonitorRequest& other : settings.monitors)
     refuse_repeated(reader, "monitor " + id, other.id == id);
-  settings.monitors.push_back(read_monitor_request(reader, id));
+  const MonitorRequest monitor = read_monitor_request(reader, id);
+  refuse_shared_files(reader, settings, {monitor.file});
+  settings.monitors.push_back(monitor);
 }
 
 void read_output(ArgumentReader& reader, LbmSettings& settings) {
@@ -312,9 +324,12 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
       const std::string word = reader.word("field");
       if (word == "grains")
         output.grains = true;
-      else if (const auto field = fields.find(word); field != fields.end())
+      else if (const auto field = fields.find(word); field != fields.end()) {
+        refuse_repeated(
+            reader, word,
+            std::find(output.fields.begin(), output.fields.end(), field->second) != output.fields.end());
         output.fields.push_back(field->second);
-      else
+      } else
         reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains");
     }
   }
@@ -323,7 +338,41 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
                       "lbm output o every 1e-2 file bed.h5 velocity pressure solid_fraction grains"});
   if (output.fields.empty())
     output.fields = {lbm::Field::velocity, lbm::Field::pressure, lbm::Field::solid_fraction};
+  if (std::filesystem::path(output.file).extension() == ".xdmf")
+    throw_user_error(
+        {reader.who(), "file", output.file, "be the HDF5 file", "FILE.xdmf comes beside FILE.h5"});
+  refuse_shared_files(reader, settings, files_of(output));
   settings.outputs.push_back(output);
+}
+
+std::vector<std::string> files_of(const OutputRequest& output) {
+  const std::filesystem::path path(output.file), stem = path.parent_path() / path.stem();
+  std::vector<std::string> files{output.file, stem.string() + ".xdmf"};
+  if (output.grains)
+    files.insert(files.end(),
+                 {stem.string() + "_grains" + path.extension().string(), stem.string() + "_grains.xdmf"});
+  return files;
+}
+
+void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
+                         const std::vector<std::string>& files) {
+  std::map<std::string, std::string> taken;
+  const auto key = [](const std::string& file) { return std::filesystem::weakly_canonical(file).string(); };
+  for (const MonitorRequest& monitor : settings.monitors)
+    taken[key(monitor.file)] = "lbm monitor " + monitor.id;
+  for (const OutputRequest& output : settings.outputs)
+    for (const std::string& file : files_of(output)) taken[key(file)] = "lbm output " + output.id;
+  if (settings.checkpoint)
+    for (const char* end : {"", ".grains"}) taken[key(settings.checkpoint->file + end)] = "lbm restart write";
+  for (const std::string& file : files)
+    if (const auto other = taken.find(key(file)); other != taken.end())
+      throw_user_error({reader.who(), "file", file, fmt::format("not be that of `{}`", other->second),
+                        "give each its own file"});
+}
+
+long steps_in(double seconds, const lbm::Units& units) {
+  constexpr double most = 1e15;  // no run gets there
+  return std::max(1L, std::lround(std::min(most, units.time_to_lattice(seconds))));
 }
 
 lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {

@@ -67,6 +67,16 @@ void read_output(ArgumentReader& reader, LbmSettings& settings);
 /// periodic along axes where LIGGGHTS is, and no-slip otherwise. Collective.
 lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
 
+/// Every file that an output writes.
+std::vector<std::string> files_of(const OutputRequest& output);
+
+/// A UserError if one of these files belongs to another monitor, output or restart line already.
+void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
+                         const std::vector<std::string>& files);
+
+/// Whole fluid steps nearest to a time in s, one at least and 1e15 at most.
+long steps_in(double seconds, const lbm::Units& units);
+
 /// Does any face or force follow a variable?
 bool values_change(const LbmSettings& settings);
 

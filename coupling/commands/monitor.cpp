@@ -9,6 +9,7 @@
 
 #include "comm.h"
 #include "lammps.h"
+#include "lbm_settings.h"
 #include "modify.h"
 #include "suffuse/common/error.h"
 
@@ -34,9 +35,7 @@ double Sample::specific_weight() const {
 
 Monitor::Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
                  CoupledSimulation& simulation, std::optional<double> continue_after)
-    : request_(request),
-      every_(std::max(1L, std::lround(simulation.units().time_to_lattice(request.every)))),
-      speaks_(lmp->comm->me == 0) {
+    : request_(request), every_(steps_in(request.every, simulation.units())), speaks_(lmp->comm->me == 0) {
   Sample now(lmp, port, simulation, request.axis);
   for (const QuantityRequest& quantity : request.quantities)
     quantities_.push_back(make_quantity(quantity, request, now));

@@ -59,6 +59,26 @@ double gradient_between(Sample& sample, double low, double high) {
   return hydraulic_gradient(sample.planes(), low, high, driven[sample.axis], sample.specific_weight());
 }
 
+/// Layers lie in the fluid and are no thinner than its cells.
+void check_layers(const MonitorRequest& monitor, const CoupledSimulation& simulation) {
+  const double spacing = simulation.units().spacing(), low = simulation.origin()[monitor.axis],
+               high = low +
+                      spacing *
+                          simulation.fluid().decomposition().cells()[static_cast<std::size_t>(monitor.axis)],
+               rounding = 0.5 * spacing;
+  const LayerRequest& layers = monitor.layers;
+  const std::string who = "lbm monitor " + monitor.id;
+  if (layers.low < low - rounding || layers.high > high + rounding)
+    throw_user_error(
+        {who, "layers", fmt::format("{:g} {:g}", layers.low, layers.high),
+         fmt::format("lie in the fluid, {:g} to {:g} m along {}", low, high, axis_name(monitor.axis)), ""});
+  if (layers.high - layers.low < 0.999 * layers.count * spacing)
+    throw_user_error(
+        {who, "layers",
+         fmt::format("{} of {:g} m each", layers.count, (layers.high - layers.low) / layers.count),
+         fmt::format("be at least a cell, {:g} m, thick", spacing), "ask for fewer"});
+}
+
 Quantity layer_quantity(const std::string& word, const MonitorRequest& monitor, double fluid_low) {
   const std::vector<LayerEnds> ends = layer_ends(monitor.layers, fluid_low);
   const auto plane = [](const PlaneSums& planes, double height) {
@@ -249,7 +269,14 @@ Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
             std::vector<double> values;
             for (std::string formula : references)
               values.push_back(sample.lmp->input->variable->compute_equal(formula.data()));
-            if (relative && first->empty()) *first = values;
+            if (relative && first->empty()) {
+              for (std::size_t k = 0; k < values.size(); ++k)
+                if (values[k] == 0)
+                  throw_user_error({"lbm monitor", "relative " + references[k], "0 at the first sample",
+                                    "be another value: samples are divided by it",
+                                    "drop `relative`, or start the monitor later"});
+              *first = values;
+            }
             for (std::size_t k = 0; k < values.size(); ++k)
               row.push_back(relative ? values[k] / (*first)[k] : values[k]);
           }};
@@ -269,7 +296,10 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
               row.push_back(gradient_between(
                   sample, 0, sample.planes().spacing * static_cast<double>(sample.planes().planes())));
             }};
-  if (word.starts_with("layer_")) return layer_quantity(word, monitor, now.simulation.origin()[axis]);
+  if (word.starts_with("layer_")) {
+    check_layers(monitor, now.simulation);
+    return layer_quantity(word, monitor, now.simulation.origin()[axis]);
+  }
   if (word == "solid_force")
     return {vector_columns(word, "n"),
             [](Sample& sample, std::vector<double>& row) { append_vector(row, sample.grains().load); }};

@@ -41,6 +41,9 @@ QuantityRequest read_quantity(ArgumentReader& reader, const std::string& first) 
   }
   if (is_reference(quantity.word)) {
     if (reader.accept("as")) quantity.name = reader.word("name of the column");
+    if (quantity.name.find_first_of(",\"\n") != std::string::npos)
+      throw_user_error(
+          {reader.who(), "as", quantity.name, "have no comma or quote: it names a column of a CSV file", ""});
   } else if (first == "mean_force") {
     quantity.group = reader.word("group of mean_force");
   } else if (first == "grains_left") {
@@ -57,7 +60,8 @@ LayerRequest read_layers(ArgumentReader& reader) {
   LayerRequest layers;
   layers.low = reader.number("low end of layers");
   layers.high = reader.number("high end of layers");
-  layers.count = static_cast<int>(std::min<std::int64_t>(reader.positive_integer("number of layers"), 10000));
+  layers.count =
+      static_cast<int>(std::min<std::int64_t>(reader.positive_integer("number of layers"), 1000000));
   if (!(layers.high > layers.low))
     throw_user_error({reader.who(), "layers", fmt::format("{:g} {:g}", layers.low, layers.high),
                       "have the low end first", "layers 0 0.012 10"});

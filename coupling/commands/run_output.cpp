@@ -5,18 +5,36 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "comm.h"
 #include "lammps.h"
+#include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
 #include "suffuse/lbm/checkpoint.h"
+#include "update.h"
 #include "write_restart.h"
 
 namespace suffuse::coupling {
 
 namespace {
 
-long steps_between(double seconds, const lbm::Units& units) {
-  return std::max(1L, std::lround(units.time_to_lattice(seconds)));
+/// Tries the file before the run spends any time; leaves none behind. Collective.
+void require_writable(const std::string& who, const std::string& file, MPI_Comm communicator) {
+  int rank = 0, failed = 0;
+  MPI_Comm_rank(communicator, &rank);
+  if (rank == 0) {
+    std::error_code ignored;
+    const bool existed = std::filesystem::exists(file, ignored);
+    failed = std::ofstream(file, std::ios::app) ? 0 : 1;
+    if (!existed && failed == 0) std::filesystem::remove(file, ignored);
+  }
+  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
+  if (failed != 0) throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
+
+/// LIGGGHTS's step in a saved state of the water.
+constexpr const char* kGrainsStep = "liggghts_step";
 
 std::string grains_file(const std::string& file) {
   const std::filesystem::path path(file);
@@ -25,10 +43,30 @@ std::string grains_file(const std::string& file) {
 
 }  // namespace
 
+/// Both files are written beside the old ones, which they replace when they are whole.
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
-  lbm::save_state(simulation.fluid(), file);
-  std::string grains = file + ".grains";
+  const std::string fresh = file + ".new";
+  require_writable("lbm restart write", fresh, lmp->world);
+  lbm::save_state(simulation.fluid(), fresh);
+  Hdf5File(fresh, Hdf5File::Mode::append, lmp->world)
+      .set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+  std::string grains = fresh + ".grains";
   LAMMPS_NS::WriteRestart(lmp).write(grains.data());
+  MPI_Barrier(lmp->world);
+  if (lmp->comm->me == 0) {
+    std::filesystem::rename(grains, file + ".grains");
+    std::filesystem::rename(fresh, file);
+  }
+  MPI_Barrier(lmp->world);
+}
+
+void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  const auto saved = Hdf5File(file, Hdf5File::Mode::read, lmp->world).integer_attribute("/", kGrainsStep);
+  if (saved != lmp->update->ntimestep)
+    throw_user_error(
+        {"lbm restart", "read " + file, fmt::format("water of LIGGGHTS's step {}", saved),
+         fmt::format("meet grains of that step, not of step {}", lmp->update->ntimestep),
+         "read_restart the .grains beside it; a run that was killed while it wrote leaves an older one"});
 }
 
 void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
@@ -50,6 +88,8 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (std::any_of(fields_.begin(), fields_.end(),
                     [&](const auto& open) { return open->request.id == request.id; }))
       continue;
+    for (const std::string& file : files_of(request))
+      require_writable("lbm output " + request.id, file, lmp->world);
     lbm::FieldOutputSettings fields;
     fields.path = request.file;
     fields.fields = request.fields;
@@ -59,14 +99,15 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
       return simulation.fluid().solid_fraction(cell);
     };
     fields_.push_back(std::make_unique<Fields>(Fields{request,
-                                                      steps_between(request.every, simulation.units()),
+                                                      steps_in(request.every, simulation.units()),
                                                       -1,
                                                       lbm::FieldOutput(fields, simulation.units()),
                                                       {}}));
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  checkpoint_every_ = checkpoint_ ? steps_between(checkpoint_->every, simulation.units()) : 0;
+  if (checkpoint_) require_writable("lbm restart write", checkpoint_->file + ".new", lmp->world);
+  checkpoint_every_ = checkpoint_ ? steps_in(checkpoint_->every, simulation.units()) : 0;
 }
 
 bool RunOutput::wants_values(long step) const {

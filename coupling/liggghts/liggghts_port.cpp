@@ -158,6 +158,13 @@ bool LiggghtsPort::anything_moves() const {
   return false;
 }
 
+bool LiggghtsPort::loads_restored() const {
+  // Grains migrate, and a rank may have had none: restored on one rank is restored on all.
+  int mine[2] = {lmp_->atom->nlocal > 0 ? 1 : 0, fix_->restored() ? 1 : 0};
+  MPI_Allreduce(MPI_IN_PLACE, mine, 2, MPI_INT, MPI_MAX, lmp_->world);
+  return mine[0] == 0 || mine[1] != 0;
+}
+
 bool LiggghtsPort::reads_loads(int substeps) {
   return moves_ || lmp_->output->next <= lmp_->update->ntimestep + substeps;
 }
@@ -200,6 +207,10 @@ void LiggghtsPort::begin(std::int64_t steps) {
   if (update->ntimestep + steps > MAXBIGINT || steps > MAXSMALLINT)
     throw_user_error({"lbm run", "time", fmt::format("{} DEM steps", steps),
                       fmt::format("be at most {} DEM steps", MAXSMALLINT), "split it in several `lbm run`"});
+  if (find_force_fix(lmp_) == nullptr)
+    throw_user_error({"lbm run", "fix hydrodynamic/force", "gone",
+                      "stay while there is a fluid: it carries the loads",
+                      "drop the `unfix`, or end the fluid with `lbm clear` before it"});
   moves_ = anything_moves();
   update->nsteps = static_cast<int>(steps);
   update->firststep = update->beginstep = update->ntimestep;
@@ -345,6 +356,8 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   for (int a = 0; a < 3; ++a)
     summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
   summary.packing = sums.volume / summary.extent.prod();
+  if (summary.grains == 1)  // fills the box around it, whatever it does
+    summary.packing = sums.volume / (lmp_->domain->prd[0] * lmp_->domain->prd[1] * lmp_->domain->prd[2]);
   return summary;
 }
 

@@ -45,6 +45,10 @@ class LiggghtsPort final : public ParticlePort {
   /// Does any fix integrate the motion of grains?
   bool anything_moves() const;
 
+  /// Have the grains the loads that a restart file kept? LIGGGHTS gives them only to a fix that is defined
+  /// before anything is run. True without grains. Collective.
+  bool loads_restored() const;
+
   /// Has a fix or a signal asked to end the run? The same on all ranks.
   bool stop_requested() const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
@@ -61,6 +62,33 @@ Vec3 vector_at(const double* values, int n) {
   return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
 }
 
+Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>> coefficients(const GrainArrays& grains) {
+  return {grains.coefficient, grains.total, Eigen::InnerStride<>(grains.coefficient_stride)};
+}
+
+/// Maps the spheres to the rows that the fluid is about to sweep, and adds up what they received after it.
+class MapAndSum final : public lbm::RowVisitor {
+ public:
+  MapAndSum(SolidMapping& mapping, CoupledTimes& times, bool loads_wanted)
+      : mapping_(mapping), times_(times), loads_wanted_(loads_wanted) {}
+
+  void before(const lbm::RowBlock& block) override {
+    if (!mapping_.is_stale()) return;
+    const Stopwatch watch(times_.mapping);
+    mapping_.write_rows(block);
+  }
+  void after(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange) override {
+    const Stopwatch watch(times_.exchange);
+    mapping_.sum_rows(block, exchange);
+  }
+  bool reads_exchange() const override { return loads_wanted_; }
+
+ private:
+  SolidMapping& mapping_;
+  CoupledTimes& times_;
+  bool loads_wanted_;
+};
+
 }  // namespace
 
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
@@ -71,7 +99,8 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       grains_(grains),
       fluid_(fluid_settings(settings, units_), decomposition),
       cells_(fluid_.use_partial_solids(settings_.solids.cells)),
-      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box()),
+      mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box(),
+               fluid_.rows_per_block()),
       pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
@@ -88,14 +117,43 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
 }
 
 void CoupledSimulation::map() {
+  place_spheres();
+  const Stopwatch watch(times_.mapping);
+  mapping_.write();
+}
+
+bool SeenGrains::same(const GrainArrays& grains) const {
+  if (static_cast<std::size_t>(grains.total) != ids_.size()) return false;
+  const auto equal = [&](const auto* now, const auto& then, std::size_t each) {
+    return std::memcmp(now, then.data(), each * ids_.size() * sizeof(*now)) == 0;
+  };
+  return equal(grains.position, positions_, 3) && equal(grains.velocity, velocities_, 3) &&
+         equal(grains.angular_velocity, spins_, 3) && equal(grains.radius, radii_, 1) &&
+         equal(grains.id, ids_, 1) && coefficients(grains) == coefficients_;
+}
+
+void SeenGrains::keep(const GrainArrays& grains) {
+  positions_.assign(grains.position, grains.position + 3 * grains.total);
+  velocities_.assign(grains.velocity, grains.velocity + 3 * grains.total);
+  spins_.assign(grains.angular_velocity, grains.angular_velocity + 3 * grains.total);
+  radii_.assign(grains.radius, grains.radius + grains.total);
+  ids_.assign(grains.id, grains.id + grains.total);
+  coefficients_ = coefficients(grains);
+}
+
+void CoupledSimulation::place_spheres() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.mapping);
-  read_spheres(grains);
-  remapped_ = mapping_.update(spheres_);
+  remapped_ = 0;
+  if (settings_.solids.remap_distance < 0 || !seen_.same(grains)) {
+    read_spheres(grains);
+    remapped_ = mapping_.place(spheres_);
+  }
   if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
+  mapping_.write();
   survey(grains);
   read_spheres(grains_.grains());
-  remapped_ += mapping_.update(spheres_);
+  remapped_ += mapping_.place(spheres_);
 }
 
 /// The same answer on all ranks.
@@ -137,6 +195,7 @@ void CoupledSimulation::survey(const GrainArrays& grains) {
 }
 
 void CoupledSimulation::read_spheres(const GrainArrays& grains) {
+  seen_.keep(grains);
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
@@ -162,8 +221,8 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
                second = units_.time_step();
   for (std::vector<double>* values : {&force_, &torque_, &lead_, &spin_lead_})
     values->assign(3 * static_cast<std::size_t>(grains.total), 0);
-  for (const std::size_t n : mapping_.order()) {
-    const LatticeLoad load = mapping_.load_of(n, units_.relaxation_time());
+  for (std::size_t n = 0; n < mapping_.loads().size(); ++n) {
+    const LatticeLoad& load = mapping_.loads()[n];
     for (std::size_t a = 0; a < 3; ++a) {
       force_[3 * n + a] = load.force[a] * newton;
       torque_[3 * n + a] = load.torque[a] * newton * metre;
@@ -247,6 +306,15 @@ void CoupledSimulation::refresh_loads() {
   int stale = loads_are_current_ ? 0 : 1, any = 0;
   MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
   if (any == 0) return;
+  {
+    const Stopwatch watch(times_.exchange);
+    mapping_.sum(units_.relaxation_time());
+  }
+  hand_loads_over();
+}
+
+/// From the sums of `mapping_`.
+void CoupledSimulation::hand_loads_over() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
@@ -254,14 +322,26 @@ void CoupledSimulation::refresh_loads() {
   hand_over(grains);
 }
 
-void CoupledSimulation::step() {
-  map();
-  {
-    const Stopwatch watch(times_.fluid);
+void CoupledSimulation::step_fluid(bool loads_wanted) {
+  const double start = MPI_Wtime(), before = times_.mapping + times_.exchange;
+  if (loads_wanted || mapping_.is_stale()) {
+    MapAndSum visitor(mapping_, times_, loads_wanted);
+    if (loads_wanted) mapping_.begin_loads();
+    fluid_.step(visitor);
+    mapping_.finish_writing();
+    if (loads_wanted) mapping_.finish_loads(units_.relaxation_time());
+  } else {
     fluid_.step();
   }
+  times_.fluid += MPI_Wtime() - start - (times_.mapping + times_.exchange - before);
+}
+
+void CoupledSimulation::step() {
+  place_spheres();
+  const bool loads_wanted = grains_.reads_loads(substeps_);
+  step_fluid(loads_wanted);
   loads_are_current_ = false;
-  if (grains_.reads_loads(substeps_)) refresh_loads();
+  if (loads_wanted) hand_loads_over();
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);
 }

@@ -12,152 +12,206 @@ namespace {
 /// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-18 (up to 16).
 constexpr float kFractionRounding = 3.f, kStrengthRounding = 48.f;
 
-void zero(float* values, int count) {
-  for (int i = 0; i < count; ++i) values[i] = 0;
+/// The rows of a block that a sphere reaches.
+struct Slice {
+  int begin, end;
+  double dz;  ///< of the plane from the sphere's centre
+};
+
+[[gnu::always_inline]] inline Slice slice_of(const MappedSphere& m, const SliceList& list,
+                                             const CellArrays& arrays) {
+  Slice slice{0, 0, list.z + arrays.lo[2] + 0.5 - m.position[2]};
+  const double left = m.reach * m.reach - slice.dz * slice.dz;
+  if (!(left > 0)) return slice;
+  const double half = __builtin_sqrt(left), middle = m.position[1] - 0.5 - arrays.lo[1];
+  const double first = __builtin_ceil(middle - half), last = __builtin_floor(middle + half);
+  slice.begin = first > list.begin_y ? static_cast<int>(first) : list.begin_y;
+  slice.end = last + 1 < list.end_y ? static_cast<int>(last) + 1 : list.end_y;
+  return slice;
 }
 
-template <FractionMethod kMethod>
-void map_with(const MappedSphere& m, const FractionRule& rule, const char* planes, const CellArrays& arrays,
-              float* entries) {
-  const LatticeSphere& s = m.sphere;
-  const Sphere sphere(s.radius, rule.subcells);
-  const float first_x = static_cast<float>(m.x_start + arrays.lo[0] + 0.5 - s.position[0]);
-  const float wx = static_cast<float>(s.angular_velocity[0]), wy = static_cast<float>(s.angular_velocity[1]),
-              wz = static_cast<float>(s.angular_velocity[2]);
-  const float coefficient = static_cast<float>(s.coefficient);
-  const float reach_squared = sphere.reach * sphere.reach;
-  const int cells_x = arrays.cells_x, row_entries = kLanes * m.packs;
-  for (int z = m.z_begin; z < m.z_end; ++z) {
-    if (planes[z] == 0) {
-      entries += row_entries * (m.y_end - m.y_begin);
-      continue;
+/// The lists' spheres lie apart in memory: what slice i + 4 needs is fetched while slice i is worked on.
+template <class Record>
+[[gnu::always_inline]] inline void fetch_record(const Record* records, const SliceList& list, int i) {
+  constexpr int ahead = 4, line = 64;
+  if (i + ahead >= list.count) return;
+  const char* record = reinterpret_cast<const char*>(records + list.numbers[i + ahead]);
+  for (unsigned at = 0; at < sizeof(Record); at += line) __builtin_prefetch(record + at, 1);
+  __builtin_prefetch(record + sizeof(Record) - 1, 1);
+}
+
+enum class Target { cells, entries_only };
+
+/// Returns the end of the slice's entries.
+template <FractionMethod kMethod, bool kOwn, Target kTarget>
+[[gnu::always_inline]] inline float* map_slice(const MappedSphere& m, const SliceList& list,
+                                               const FractionRule& rule, const CellArrays& arrays,
+                                               float* entries) {
+  const Slice slice = slice_of(m, list, arrays);
+  const Sphere sphere{m.radius, m.linear_offset, rule.subcells};
+  const float first_x = static_cast<float>(m.x_start + arrays.lo[0] + 0.5 - m.position[0]);
+  const float dz = static_cast<float>(slice.dz), coefficient = m.coefficient;
+  const float wx = m.angular_velocity[0], wy = m.angular_velocity[1], wz = m.angular_velocity[2];
+  const float ux = m.velocity[0] + wy * dz, uy = m.velocity[1] - wx * dz, uz = m.velocity[2];
+  const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
+  for (int pack = 0; pack < m.packs; ++pack) {
+    const int x = m.x_start + kLanes * pack;
+    const Floats dx = first_x + static_cast<float>(kLanes * pack) + kLaneNumbers;
+    const Floats turning_y = uy + wz * dx, turning_z = uz - wy * dx;
+    const auto in_row = kLaneNumbers < static_cast<float>(arrays.cells_x - x);
+    const std::ptrdiff_t first = x + arrays.plane_pitch * list.z;
+    for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
+      const float dy = static_cast<float>(y + lo_y);
+      Floats fraction = covered<kMethod>(sphere, dx, dy, dz);
+      fraction = (fraction + kFractionRounding) - kFractionRounding;
+      fraction = in_row ? fraction : Floats{};
+      Floats strength = fraction;
+      if constexpr (kOwn) strength = (coefficient * fraction + kStrengthRounding) - kStrengthRounding;
+      store(entries, strength);
+      if constexpr (kTarget == Target::entries_only) continue;
+      const std::ptrdiff_t cell = first + arrays.row_pitch * y;
+      store(arrays.fraction + cell, load(arrays.fraction + cell) + fraction);
+      if constexpr (kOwn) store(arrays.strength + cell, load(arrays.strength + cell) + strength);
+      float* const* momentum = arrays.momentum;
+      store(momentum[0] + cell, load(momentum[0] + cell) + strength * (ux - wz * dy));
+      store(momentum[1] + cell, load(momentum[1] + cell) + strength * turning_y);
+      store(momentum[2] + cell, load(momentum[2] + cell) + strength * (turning_z + wx * dy));
     }
-    const float dz = static_cast<float>(z + arrays.lo[2] + 0.5 - s.position[2]);
-    for (int y = m.y_begin; y < m.y_end; ++y, entries += row_entries) {
-      const float dy = static_cast<float>(y + arrays.lo[1] + 0.5 - s.position[1]);
-      if (dy * dy + dz * dz >= reach_squared) {
-        zero(entries, row_entries);
-        continue;
-      }
-      const float ux = static_cast<float>(s.velocity[0]) + wy * dz - wz * dy;
-      const float uy = static_cast<float>(s.velocity[1]) - wx * dz;
-      const float uz = static_cast<float>(s.velocity[2]) + wx * dy;
-      std::ptrdiff_t cell = m.x_start + arrays.row_pitch * y + arrays.plane_pitch * z;
-      for (int pack = 0; pack < m.packs; ++pack, cell += kLanes) {
-        const Floats dx = first_x + static_cast<float>(kLanes * pack) + kLaneNumbers;
-        Floats fraction = covered<kMethod>(sphere, dx, dy, dz);
-        fraction = (fraction + kFractionRounding) - kFractionRounding;
-        const int beyond = cells_x - (m.x_start + kLanes * pack);  // lanes that are cells of the row
-        if (beyond < kLanes) fraction = kLaneNumbers < static_cast<float>(beyond) ? fraction : Floats{};
-        Floats strength = fraction;
-        store(arrays.fraction + cell, load(arrays.fraction + cell) + fraction);
-        if (rule.own_coefficients) {
-          strength = (coefficient * fraction + kStrengthRounding) - kStrengthRounding;
-          store(arrays.strength + cell, load(arrays.strength + cell) + strength);
-        }
-        float* const* momentum = arrays.momentum;
-        store(momentum[0] + cell, load(momentum[0] + cell) + strength * ux);
-        store(momentum[1] + cell, load(momentum[1] + cell) + strength * (uy + wz * dx));
-        store(momentum[2] + cell, load(momentum[2] + cell) + strength * (uz - wy * dx));
-        store(entries + kLanes * pack, strength);
-      }
-    }
+  }
+  return entries;
+}
+
+template <FractionMethod kMethod, bool kOwn, Target kTarget>
+void map_all(const SliceList& list, const FractionRule& rule, const CellArrays& given, float* entries) {
+  const CellArrays arrays = given;  // a copy of our own: stores cannot change it
+  for (int i = 0; i < list.count; ++i) {
+    fetch_record(list.spheres, list, i);
+    const MappedSphere& m = list.spheres[list.numbers[i]];
+    if (kMethod == FractionMethod::linear && m.radius < kLeastLinearRadius)
+      entries = map_slice<FractionMethod::exact, kOwn, kTarget>(m, list, rule, arrays, entries);
+    else
+      entries = map_slice<kMethod, kOwn, kTarget>(m, list, rule, arrays, entries);
   }
 }
 
-/// The share of each cell's exchange that belongs to the sphere: 1 where it is alone.
-Doubles shares(const Floats& own, const Floats& all) {
-  const Floats alone = own != 0.f ? Floats{} + 1.f : Floats{};
-  if (!any(alone * (all - own))) return __builtin_convertvector(alone, Doubles);
-  const Doubles whole = __builtin_convertvector(all, Doubles), mine = __builtin_convertvector(own, Doubles);
-  return mine / (whole > 0. ? whole : Doubles{} + 1.);
+template <Target kTarget>
+void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
+  const bool own = rule.own_coefficients;
+  switch (rule.method) {
+    case FractionMethod::exact:
+      return own ? map_all<FractionMethod::exact, true, kTarget>(list, rule, arrays, entries)
+                 : map_all<FractionMethod::exact, false, kTarget>(list, rule, arrays, entries);
+    case FractionMethod::linear:
+      return own ? map_all<FractionMethod::linear, true, kTarget>(list, rule, arrays, entries)
+                 : map_all<FractionMethod::linear, false, kTarget>(list, rule, arrays, entries);
+    case FractionMethod::subcells:
+      return own ? map_all<FractionMethod::subcells, true, kTarget>(list, rule, arrays, entries)
+                 : map_all<FractionMethod::subcells, false, kTarget>(list, rule, arrays, entries);
+  }
+}
+
+/// The share of each cell's exchange that belongs to the sphere: exactly 1 where it is alone.
+[[gnu::always_inline]] inline Doubles shares(const Floats& own, const Floats& all) {
+  const Floats divisor = all > 0.f ? all : Floats{} + 1.f;
+  return widened(own) / widened(divisor);
 }
 
 template <class T>
-struct ExchangePack;
-template <>
-struct ExchangePack<double> {
-  static Doubles load(const double* from) { return *reinterpret_cast<const UnalignedDoubles*>(from); }
-};
-template <>
-struct ExchangePack<float> {
-  static Doubles load(const float* from) {
-    return __builtin_convertvector(SUFFUSE_KERNEL_NAMESPACE::load(from), Doubles);
+[[gnu::always_inline]] inline Doubles load_exchange(const T* from) {
+  if constexpr (sizeof(T) == sizeof(float))
+    return widened(load(from));
+  else
+    return *reinterpret_cast<const UnalignedDoubles*>(from);
+}
+
+[[gnu::always_inline]] inline double sum_of(const Doubles& v) {
+  typedef double Four __attribute__((vector_size(32)));
+  typedef double Two __attribute__((vector_size(16)));
+  const Four four = __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  const Two two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+  return two[0] + two[1];
+}
+
+/// Sum of vectors h that act at cells of a slice, and of their moments about the sphere's centre.
+struct Moments {
+  Doubles hx{}, hy{}, hz{}, y_hx{}, y_hz{}, x_hy{}, x_hz{};
+
+  [[gnu::always_inline]] void add(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& dx,
+                                  double dy) {
+    hx += x;
+    hy += y;
+    hz += z;
+    y_hx += dy * x;
+    y_hz += dy * z;
+    x_hy += dx * y;
+    x_hz += dx * z;
+  }
+  [[gnu::always_inline]] void add_to(double* force, double* torque, double dz) const {
+    const double sum[3] = {sum_of(hx), sum_of(hy), sum_of(hz)};
+    for (int a = 0; a < 3; ++a) force[a] += sum[a];
+    torque[0] += sum_of(y_hz) - dz * sum[1];
+    torque[1] += dz * sum[0] - sum_of(x_hz);
+    torque[2] += sum_of(x_hy - y_hx);
   }
 };
 
-double sum_of(const Doubles& v) {
-  return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));
+/// Returns the end of the slice's entries.
+template <class T>
+[[gnu::always_inline]] inline const float* sum_slice(const MappedSphere& m, const SliceList& list,
+                                                     const CellArrays& arrays, const T* const* exchange,
+                                                     const float* entries, LatticeLoad& load_sum) {
+  const Slice slice = slice_of(m, list, arrays);
+  const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
+  const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
+  Moments all, open;
+  for (int pack = 0; pack < m.packs; ++pack) {
+    const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
+    const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
+    for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
+      const std::ptrdiff_t cell = first + arrays.row_pitch * y;
+      const double dy = y + lo_y;
+      const Doubles share = shares(load(entries), load(arrays.strength + cell));
+      const Doubles hx = share * load_exchange(exchange[0] + cell),
+                    hy = share * load_exchange(exchange[1] + cell),
+                    hz = share * load_exchange(exchange[2] + cell);
+      all.add(hx, hy, hz, dx, dy);
+      const Doubles clear = widened(1.f - lesser(load(arrays.fraction + cell), Floats{} + 1.f));
+      open.add(clear * hx, clear * hy, clear * hz, dx, dy);
+    }
+  }
+  all.add_to(load_sum.force, load_sum.torque, slice.dz);
+  open.add_to(load_sum.lead, load_sum.spin_lead, slice.dz);
+  return entries;
 }
 
 template <class T>
-void sum_with(const MappedSphere& m, const HeldRule& held, const CellArrays& arrays, const T* const* exchange,
-              const float* entries, LatticeLoad& load_sum) {
-  const LatticeSphere& s = m.sphere;
-  const double first_x = m.x_start + arrays.lo[0] + 0.5 - s.position[0];
-  const Doubles lanes = __builtin_convertvector(kLaneNumbers, Doubles);
-  Doubles force[3]{}, torque[3]{}, lead[3]{}, spin_lead[3]{};
-  for (int z = m.z_begin; z < m.z_end; ++z) {
-    const double dz = z + arrays.lo[2] + 0.5 - s.position[2];
-    for (int y = m.y_begin; y < m.y_end; ++y) {
-      const double dy = y + arrays.lo[1] + 0.5 - s.position[1];
-      std::ptrdiff_t cell = m.x_start + arrays.row_pitch * y + arrays.plane_pitch * z;
-      for (int pack = 0; pack < m.packs; ++pack, cell += kLanes, entries += kLanes) {
-        const Floats own = load(entries);
-        if (!any(own)) continue;
-        const Doubles share = shares(own, load(arrays.strength + cell));
-        const Doubles hx = share * ExchangePack<T>::load(exchange[0] + cell),
-                      hy = share * ExchangePack<T>::load(exchange[1] + cell),
-                      hz = share * ExchangePack<T>::load(exchange[2] + cell);
-        const Doubles dx = (first_x + kLanes * pack) + lanes;
-        force[0] += hx;
-        force[1] += hy;
-        force[2] += hz;
-        const Doubles tx = dy * hz - dz * hy, ty = dz * hx - dx * hz, tz = dx * hy - dy * hx;
-        torque[0] += tx;
-        torque[1] += ty;
-        torque[2] += tz;
-        const Floats open = 1.f - lesser(load(arrays.fraction + cell), Floats{} + 1.f);
-        const Doubles ahead = held.whole - held.slope * __builtin_convertvector(open, Doubles);
-        lead[0] += ahead * hx;
-        lead[1] += ahead * hy;
-        lead[2] += ahead * hz;
-        spin_lead[0] += ahead * tx;
-        spin_lead[1] += ahead * ty;
-        spin_lead[2] += ahead * tz;
-      }
-    }
-  }
-  for (int a = 0; a < 3; ++a) {
-    load_sum.force[a] = sum_of(force[a]);
-    load_sum.torque[a] = sum_of(torque[a]);
-    load_sum.lead[a] = sum_of(lead[a]);
-    load_sum.spin_lead[a] = sum_of(spin_lead[a]);
+void sum_all(const SliceList& list, const CellArrays& given, const T* const* exchange, const float* entries,
+             LatticeLoad* loads) {
+  const CellArrays arrays = given;
+  const T* const from[3] = {exchange[0], exchange[1], exchange[2]};
+  for (int i = 0; i < list.count; ++i) {
+    fetch_record(list.spheres, list, i);
+    fetch_record(loads, list, i);
+    const int n = list.numbers[i];
+    entries = sum_slice<T>(list.spheres[n], list, arrays, from, entries, loads[n]);
   }
 }
 
 }  // namespace
 
-void map_sphere(const MappedSphere& mapped, const FractionRule& rule, const char* planes,
-                const CellArrays& arrays, float* entries) {
-  switch (rule.method) {
-    case FractionMethod::exact:
-      return map_with<FractionMethod::exact>(mapped, rule, planes, arrays, entries);
-    case FractionMethod::linear:  // its formula holds from a radius of 0.71 on
-      if (mapped.sphere.radius < 1)
-        return map_with<FractionMethod::exact>(mapped, rule, planes, arrays, entries);
-      return map_with<FractionMethod::linear>(mapped, rule, planes, arrays, entries);
-    case FractionMethod::subcells:
-      return map_with<FractionMethod::subcells>(mapped, rule, planes, arrays, entries);
-  }
+void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
+  map_by<Target::cells>(list, rule, arrays, entries);
 }
 
-void sum_load(const MappedSphere& mapped, const HeldRule& held, const CellArrays& arrays,
-              const float* entries, LatticeLoad& load_sum) {
+void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
+  map_by<Target::entries_only>(list, rule, arrays, entries);
+}
+
+void sum_loads(const SliceList& list, const CellArrays& arrays, const float* entries, LatticeLoad* loads) {
   if (arrays.exchange_double[0] != nullptr)
-    sum_with<double>(mapped, held, arrays, arrays.exchange_double, entries, load_sum);
+    sum_all<double>(list, arrays, arrays.exchange_double, entries, loads);
   else
-    sum_with<float>(mapped, held, arrays, arrays.exchange_float, entries, load_sum);
+    sum_all<float>(list, arrays, arrays.exchange_float, entries, loads);
 }
 
 }  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

@@ -1,19 +1,19 @@
 #pragma once
 
+#include <cstddef>
+
 #include "suffuse/coupling/mapped_sphere.h"
 
 namespace suffuse::coupling {
+
+/// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
+inline constexpr float kLeastLinearRadius = 1;
 
 /// How fractions are written.
 struct FractionRule {
   FractionMethod method = FractionMethod::exact;
   int subcells = 5;
   bool own_coefficients = false;  ///< strengths are fractions times the sphere's coefficient
-};
-
-/// lbm::HeldTerms.
-struct HeldRule {
-  double whole, slope;
 };
 
 /// The sub-box and its arrays as plain data (see PartialSolidArrays): these files are compiled for wide
@@ -26,17 +26,28 @@ struct CellArrays {
   const float* exchange_float[3];
 };
 
+/// The slices of spheres in one block of rows: rows begin_y <= y < end_y of plane z of the sub-box, and which
+/// of `spheres` may reach them.
+struct SliceList {
+  int z, begin_y, end_y;
+  const MappedSphere* spheres;
+  const int* numbers;
+  int count;
+};
+
 /// One set of entry points for each instruction set, defined by compiling mapping_kernels.cpp for it.
 ///
-/// map_sphere adds a sphere to the cells of those of its planes for which `planes[z]` is not 0, and stores
-/// the strengths in its entries.
-/// sum_load adds up the exchange of a sphere's cells, and by how much the fluid in them leads.
-#define SUFFUSE_DECLARE_MAPPING(instruction_set)                                            \
-  namespace instruction_set {                                                               \
-  void map_sphere(const MappedSphere& mapped, const FractionRule& rule, const char* planes, \
-                  const CellArrays& arrays, float* entries);                                \
-  void sum_load(const MappedSphere& mapped, const HeldRule& held, const CellArrays& arrays, \
-                const float* entries, LatticeLoad& load);                                   \
+/// map_slices adds the slices to the cells, one after the other.
+/// strengths_of leaves the cells alone; both store the slices' own strengths in `entries`, eight a pack.
+/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries; to `lead`
+/// and `spin_lead` the same times the part of each cell that is open.
+#define SUFFUSE_DECLARE_MAPPING(instruction_set)                                                             \
+  namespace instruction_set {                                                                                \
+  void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,                 \
+                  float* entries);                                                                           \
+  void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,               \
+                    float* entries);                                                                         \
+  void sum_loads(const SliceList& list, const CellArrays& arrays, const float* entries, LatticeLoad* loads); \
   }
 SUFFUSE_DECLARE_MAPPING(portable)
 SUFFUSE_DECLARE_MAPPING(avx2)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "mapping_kernels.h"
 
@@ -13,10 +12,22 @@ namespace {
 
 /// Beyond radius + this a cell's centre is too far for the sphere to cover any of the cell.
 double reach_beyond_radius(FractionMethod method, double radius) {
-  return method == FractionMethod::linear && radius >= 1 ? 0.5 : 0.8660255;
+  return method == FractionMethod::linear && radius >= kLeastLinearRadius ? 0.5 : 0.8660255;
 }
 
-CellArrays plain(const lbm::PartialSolidArrays& arrays, const lbm::CellBox& box) {
+/// Jones & Williams (docs key: joneswilliams2017): the fraction of a cell with a face towards the centre at
+/// distance d is f(r) - (d - r), with f = V_a - r + 1/2 and V_a <= r the volume under the sphere over a unit
+/// square. Radii from 0.71 on.
+float linear_offset(double r) {
+  const double square = r * r, s = std::sqrt(square - 0.5);
+  const double volume = (1. / 12 - square) * std::atan(0.5 * s / (0.5 - square)) + s / 3 +
+                        (square - 1. / 12) * std::atan(0.5 / s) -
+                        4. / 3 * r * square * std::atan(0.25 / (r * s));
+  return static_cast<float>(volume - r + 0.5);
+}
+
+CellArrays plain(const lbm::PartialSolidArrays& arrays, const lbm::CellBox& box,
+                 const lbm::ExchangeArrays& exchange) {
   CellArrays plain{};
   plain.cells_x = box.extent(0);
   plain.row_pitch = arrays.row_pitch;
@@ -26,20 +37,57 @@ CellArrays plain(const lbm::PartialSolidArrays& arrays, const lbm::CellBox& box)
   for (std::size_t a = 0; a < 3; ++a) {
     plain.lo[a] = box.lo[a];
     plain.momentum[a] = arrays.momentum[a];
-    if (const auto* in_double = std::get_if<0>(&arrays.exchange)) plain.exchange_double[a] = (*in_double)[a];
-    if (const auto* in_float = std::get_if<1>(&arrays.exchange)) plain.exchange_float[a] = (*in_float)[a];
+    if (const auto* in_double = std::get_if<0>(&exchange)) plain.exchange_double[a] = (*in_double)[a];
+    if (const auto* in_float = std::get_if<1>(&exchange)) plain.exchange_float[a] = (*in_float)[a];
   }
   return plain;
+}
+
+/// The kernels of one instruction set.
+struct Kernels {
+  decltype(&portable::map_slices) map_slices;
+  decltype(&portable::strengths_of) strengths_of;
+  decltype(&portable::sum_loads) sum_loads;
+};
+
+Kernels kernels_of(lbm::InstructionSet set) {
+  switch (set) {
+#ifdef SUFFUSE_HAVE_X86_KERNELS
+    case lbm::InstructionSet::avx512:
+      return {avx512::map_slices, avx512::strengths_of, avx512::sum_loads};
+    case lbm::InstructionSet::avx2:
+      return {avx2::map_slices, avx2::strengths_of, avx2::sum_loads};
+#endif
+    default:
+      return {portable::map_slices, portable::strengths_of, portable::sum_loads};
+  }
 }
 
 }  // namespace
 
 SolidMapping::SolidMapping(const SolidSettings& settings, lbm::InstructionSet instruction_set,
-                           const lbm::PartialSolidArrays& arrays, const lbm::CellBox& local_box)
-    : settings_(settings), instruction_set_(instruction_set), arrays_(arrays), box_(local_box) {}
+                           const lbm::PartialSolidArrays& arrays, const lbm::CellBox& local_box,
+                           int rows_per_block)
+    : settings_(settings),
+      instruction_set_(instruction_set),
+      arrays_(arrays),
+      box_(local_box),
+      rows_per_block_(rows_per_block),
+      blocks_per_plane_((local_box.extent(1) + rows_per_block - 1) / rows_per_block),
+      dirty_(static_cast<std::size_t>(local_box.extent(2)), 0) {}
 
-void SolidMapping::place(const LatticeSphere& sphere, MappedSphere& mapped) const {
-  const double reach = sphere.radius + reach_beyond_radius(settings_.fraction, sphere.radius);
+void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) const {
+  const float radius = static_cast<float>(sphere.radius);
+  if (settings_.fraction == FractionMethod::linear && radius != mapped.radius && radius >= kLeastLinearRadius)
+    mapped.linear_offset = linear_offset(sphere.radius);
+  mapped.radius = radius;
+  mapped.coefficient = static_cast<float>(sphere.coefficient);
+  for (int a = 0; a < 3; ++a) {
+    mapped.position[a] = sphere.position[a];
+    mapped.velocity[a] = static_cast<float>(sphere.velocity[a]);
+    mapped.angular_velocity[a] = static_cast<float>(sphere.angular_velocity[a]);
+  }
+  mapped.reach = sphere.radius + reach_beyond_radius(settings_.fraction, sphere.radius);
   int begin[3], end[3];
   bool outside = false;
   for (int a = 0; a < 3; ++a) {
@@ -49,13 +97,12 @@ void SolidMapping::place(const LatticeSphere& sphere, MappedSphere& mapped) cons
       outside = true;
       continue;
     }
-    const double first = std::ceil(sphere.position[a] - reach - 0.5) - box_.lo[at];
-    const double last = std::floor(sphere.position[a] + reach - 0.5) - box_.lo[at];
+    const double first = std::ceil(sphere.position[a] - mapped.reach - 0.5) - box_.lo[at];
+    const double last = std::floor(sphere.position[a] + mapped.reach - 0.5) - box_.lo[at];
     begin[a] = static_cast<int>(std::clamp(first, 0., static_cast<double>(box_.extent(a))));
     end[a] = static_cast<int>(std::clamp(last + 1, 0., static_cast<double>(box_.extent(a))));
     outside |= begin[a] >= end[a];
   }
-  mapped.sphere = sphere;
   mapped.packs = outside ? 0 : (end[0] - begin[0] + 7) / 8;
   mapped.x_start = std::max(0, std::min(begin[0], box_.extent(0) - 8 * mapped.packs));
   mapped.y_begin = begin[1];
@@ -65,9 +112,9 @@ void SolidMapping::place(const LatticeSphere& sphere, MappedSphere& mapped) cons
 }
 
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {
-  if (spheres.size() != mapped_.size()) return false;
+  if (spheres.size() != placed_.size()) return false;
   for (std::size_t n = 0; n < spheres.size(); ++n) {
-    const LatticeSphere& then = mapped_[n].sphere;
+    const LatticeSphere& then = placed_[n];
     if (spheres[n].id != then.id || spheres[n].radius != then.radius) return false;
     // The same grain's other image, several cells away, is another sphere.
     if (std::abs(spheres[n].position[0] - then.position[0]) > 4 ||
@@ -89,134 +136,153 @@ bool SolidMapping::moved(const LatticeSphere& now, const LatticeSphere& then) co
   return std::abs(now.coefficient - then.coefficient) > 1e-3 * then.coefficient;
 }
 
-void SolidMapping::mark(const MappedSphere& mapped, std::vector<char>& planes) const {
-  std::fill(planes.begin() + mapped.z_begin, planes.begin() + mapped.z_end, char{1});
+void SolidMapping::mark(const MappedSphere& mapped) {
+  std::fill(dirty_.begin() + mapped.z_begin, dirty_.begin() + mapped.z_end, char{1});
+  stale_ |= mapped.z_begin < mapped.z_end;
 }
 
-/// Entries for the largest box that a sphere of this radius can have, so that its place stays while it moves.
-void SolidMapping::give_entries() {
-  std::size_t total = 0;
-  for (MappedSphere& m : mapped_) {
-    m.first_entry = total;
-    const auto span = static_cast<std::size_t>(
-        std::floor(2 * (m.sphere.radius + reach_beyond_radius(settings_.fraction, m.sphere.radius))) + 1);
-    const auto extent = [&](int axis) { return std::min(span, static_cast<std::size_t>(box_.extent(axis))); };
-    // A sphere that does not reach this rank now may do so without the list changing.
-    total += 8 * ((extent(0) + 7) / 8) * extent(1) * extent(2);
+std::size_t SolidMapping::number_of(const lbm::RowBlock& block) const {
+  return static_cast<std::size_t>(block.z * blocks_per_plane_ + block.begin_y / rows_per_block_);
+}
+
+/// Sorts the spheres' slices by the block that they lie in.
+void SolidMapping::list_slices() {
+  const auto blocks = static_cast<std::size_t>(blocks_per_plane_ * box_.extent(2));
+  first_slice_.assign(blocks + 1, 0);
+  const auto for_blocks = [&](const MappedSphere& m, const auto& visit) {
+    if (m.packs == 0) return;
+    const int low = m.y_begin / rows_per_block_, high = (m.y_end - 1) / rows_per_block_;
+    for (int z = m.z_begin; z < m.z_end; ++z)
+      for (int b = low; b <= high; ++b) visit(static_cast<std::size_t>(z * blocks_per_plane_ + b));
+  };
+  std::size_t widest = 0;
+  for (const MappedSphere& m : mapped_) {
+    for_blocks(m, [&](std::size_t block) { ++first_slice_[block + 1]; });
+    widest =
+        std::max(widest, static_cast<std::size_t>(m.packs * std::min(m.y_end - m.y_begin, rows_per_block_)));
   }
-  entries_.resize(total);
-}
-
-void SolidMapping::sort_along_z() {
-  std::vector<std::size_t> count(static_cast<std::size_t>(box_.extent(2)) + 2, 0);
-  for (const MappedSphere& m : mapped_) ++count[static_cast<std::size_t>(m.z_begin) + 1];
-  std::partial_sum(count.begin(), count.end(), count.begin());
-  order_.resize(mapped_.size());
+  int most = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    most = std::max(most, first_slice_[b + 1]);
+    first_slice_[b + 1] += first_slice_[b];
+  }
+  slices_.resize(static_cast<std::size_t>(first_slice_[blocks]));
+  entries_.resize(std::max(entries_.size(), 8 * widest * static_cast<std::size_t>(most)));
+  entries_block_ = -1;
+  std::vector<int> next(first_slice_.begin(), first_slice_.end() - 1);
   for (std::size_t n = 0; n < mapped_.size(); ++n)
-    order_[count[static_cast<std::size_t>(mapped_[n].z_begin)]++] = n;
+    for_blocks(mapped_[n], [&](std::size_t block) {
+      slices_[static_cast<std::size_t>(next[block]++)] = static_cast<int>(n);
+    });
 }
 
-void SolidMapping::clear_plane(int z) const {
+SliceList SolidMapping::slices_in(const lbm::RowBlock& block) const {
+  const std::size_t number = number_of(block);
+  const int first = first_slice_[number];
+  return {block.z,        block.begin_y,          block.end_y,
+          mapped_.data(), slices_.data() + first, first_slice_[number + 1] - first};
+}
+
+void SolidMapping::clear_rows(const lbm::RowBlock& block) const {
   const auto clear = [&](float* values) {
-    std::memset(values + arrays_.plane_pitch * z, 0,
-                sizeof(float) * static_cast<std::size_t>(arrays_.row_pitch * box_.extent(1)));
+    std::memset(values + arrays_.plane_pitch * block.z + arrays_.row_pitch * block.begin_y, 0,
+                sizeof(float) * static_cast<std::size_t>(arrays_.row_pitch * (block.end_y - block.begin_y)));
   };
   clear(arrays_.fraction);
   if (arrays_.strength != arrays_.fraction) clear(arrays_.strength);
   for (float* momentum : arrays_.momentum) clear(momentum);
 }
 
-/// Each plane is cleared just before the first sphere that reaches it is written, while it is on its way into
-/// the cache.
-void SolidMapping::write_planes(const std::vector<char>& dirty) {
-  const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-  const CellArrays arrays = plain(arrays_, box_);
-  int cleared = 0;
-  const auto clear_up_to = [&](int end) {
-    for (; cleared < end; ++cleared)
-      if (dirty[static_cast<std::size_t>(cleared)] != 0) clear_plane(cleared);
-  };
-  for (const std::size_t n : order_) {
-    const MappedSphere& m = mapped_[n];
-    if (m.packs == 0) continue;
-    clear_up_to(m.z_end);
-    if (std::find(dirty.begin() + m.z_begin, dirty.begin() + m.z_end, char{1}) == dirty.begin() + m.z_end)
-      continue;
-    float* entries = entries_.data() + m.first_entry;
-    switch (instruction_set_) {
-#ifdef SUFFUSE_HAVE_X86_KERNELS
-      case lbm::InstructionSet::avx512:
-        avx512::map_sphere(m, rule, dirty.data(), arrays, entries);
-        break;
-      case lbm::InstructionSet::avx2:
-        avx2::map_sphere(m, rule, dirty.data(), arrays, entries);
-        break;
-#endif
-      default:
-        portable::map_sphere(m, rule, dirty.data(), arrays, entries);
-    }
-  }
-  clear_up_to(box_.extent(2));
+template <class Visit>
+void SolidMapping::for_each_block(const Visit& visit) const {
+  for (int z = 0; z < box_.extent(2); ++z)
+    for (int y = 0; y < box_.extent(1); y += rows_per_block_)
+      visit(lbm::RowBlock{z, y, std::min(y + rows_per_block_, box_.extent(1))});
 }
 
-std::size_t SolidMapping::update(const std::vector<LatticeSphere>& spheres) {
-  std::vector<char> dirty(static_cast<std::size_t>(box_.extent(2)) + 1, 0);
+std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
   std::size_t count = 0;
   if (!same_list(spheres)) {
-    for (const MappedSphere& m : mapped_) mark(m, dirty);
+    placed_ = spheres;
+    for (const MappedSphere& m : mapped_) mark(m);
     mapped_.assign(spheres.size(), {});
     for (std::size_t n = 0; n < spheres.size(); ++n) {
-      place(spheres[n], mapped_[n]);
-      mark(mapped_[n], dirty);
+      set_place(spheres[n], mapped_[n]);
+      mark(mapped_[n]);
     }
-    give_entries();
-    sort_along_z();
-    count = spheres.size();
-  } else {
-    for (std::size_t n = 0; n < spheres.size(); ++n) {
-      MappedSphere& m = mapped_[n];
-      if (!moved(spheres[n], m.sphere)) continue;
-      mark(m, dirty);
-      place(spheres[n], m);
-      mark(m, dirty);
-      ++count;
-    }
-    if (count > 0) sort_along_z();
+    list_slices();
+    return spheres.size();
   }
-  if (std::find(dirty.begin(), dirty.end(), char{1}) != dirty.end()) write_planes(dirty);
+  for (std::size_t n = 0; n < spheres.size(); ++n) {
+    MappedSphere& m = mapped_[n];
+    if (!moved(spheres[n], placed_[n])) continue;
+    placed_[n] = spheres[n];
+    mark(m);
+    set_place(spheres[n], m);
+    mark(m);
+    ++count;
+  }
+  if (count > 0) list_slices();
   return count;
 }
 
-LatticeLoad SolidMapping::load_of(std::size_t n, double relaxation_time) const {
-  LatticeLoad load;
-  const MappedSphere& m = mapped_[n];
-  if (m.packs == 0) return load;
-  const float* entries = entries_.data() + m.first_entry;
-  const CellArrays arrays = plain(arrays_, box_);
-  const lbm::HeldTerms terms = lbm::held_terms(settings_.cells, m.sphere.coefficient, relaxation_time);
-  const HeldRule held{terms.whole, terms.slope};
-  switch (instruction_set_) {
-#ifdef SUFFUSE_HAVE_X86_KERNELS
-    case lbm::InstructionSet::avx512:
-      avx512::sum_load(m, held, arrays, entries, load);
-      break;
-    case lbm::InstructionSet::avx2:
-      avx2::sum_load(m, held, arrays, entries, load);
-      break;
-#endif
-    default:
-      portable::sum_load(m, held, arrays, entries, load);
-  }
-  return load;
+void SolidMapping::write_rows(const lbm::RowBlock& block) {
+  if (dirty_[static_cast<std::size_t>(block.z)] == 0) return;
+  clear_rows(block);
+  const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
+  kernels_of(instruction_set_).map_slices(slices_in(block), rule, plain(arrays_, box_, {}), entries_.data());
+  entries_block_ = static_cast<std::ptrdiff_t>(number_of(block));
 }
 
-double SolidMapping::volume_of(std::size_t n) const {
-  const MappedSphere& m = mapped_[n];
-  const float* entries = entries_.data() + m.first_entry;
-  double sum = 0;
-  const int count = 8 * m.packs * (m.y_end - m.y_begin) * (m.z_end - m.z_begin);
-  for (int i = 0; i < count; ++i) sum += static_cast<double>(entries[i]);
-  return settings_.cells.own_coefficients ? sum / m.sphere.coefficient : sum;
+void SolidMapping::finish_writing() {
+  std::fill(dirty_.begin(), dirty_.end(), char{0});
+  stale_ = false;
+}
+
+void SolidMapping::write() {
+  if (!stale_) return;
+  for_each_block([&](const lbm::RowBlock& block) { write_rows(block); });
+  finish_writing();
+}
+
+std::size_t SolidMapping::update(const std::vector<LatticeSphere>& spheres) {
+  const std::size_t count = place(spheres);
+  write();
+  return count;
+}
+
+void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange) {
+  if (first_slice_.empty()) return;
+  const SliceList list = slices_in(block);
+  if (list.count == 0) return;
+  const CellArrays arrays = plain(arrays_, box_, exchange);
+  const Kernels kernels = kernels_of(instruction_set_);
+  const auto number = static_cast<std::ptrdiff_t>(number_of(block));
+  if (entries_block_ != number) {
+    const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
+    kernels.strengths_of(list, rule, arrays, entries_.data());
+    entries_block_ = number;
+  }
+  kernels.sum_loads(list, arrays, entries_.data(), loads_.data());
+}
+
+/// From sums of exchange and of exchange times the open part of cells: the covered part leads by
+/// whole - slope (1 - eps) of the exchange.
+void SolidMapping::finish_loads(double relaxation_time) {
+  for (std::size_t n = 0; n < loads_.size(); ++n) {
+    const lbm::HeldTerms held = lbm::held_terms(settings_.cells, placed_[n].coefficient, relaxation_time);
+    LatticeLoad& load = loads_[n];
+    for (int a = 0; a < 3; ++a) {
+      load.lead[a] = held.whole * load.force[a] - held.slope * load.lead[a];
+      load.spin_lead[a] = held.whole * load.torque[a] - held.slope * load.spin_lead[a];
+    }
+  }
+}
+
+void SolidMapping::sum(double relaxation_time) {
+  begin_loads();
+  for_each_block([&](const lbm::RowBlock& block) { sum_rows(block, arrays_.exchange); });
+  finish_loads(relaxation_time);
 }
 
 Vec3 SolidMapping::solid_flux(const lbm::Index3& cell) const {
@@ -237,8 +303,9 @@ double SolidMapping::overlap() const {
 }
 
 std::size_t SolidMapping::bytes() const {
-  return mapped_.capacity() * sizeof(MappedSphere) + entries_.capacity() * sizeof(float) +
-         order_.capacity() * sizeof(std::size_t);
+  return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
+         loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
+         (slices_.capacity() + first_slice_.capacity()) * sizeof(int);
 }
 
 }  // namespace suffuse::coupling

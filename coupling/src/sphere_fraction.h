@@ -23,6 +23,13 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 [[gnu::always_inline]] inline void store(float* to, const Floats& value) {
   *reinterpret_cast<UnalignedFloats*>(to) = value;
 }
+[[gnu::always_inline]] inline Doubles widened(const Floats& v) {
+#ifdef __AVX512F__
+  return _mm512_maskz_cvtps_pd(static_cast<__mmask8>(-1), v);
+#else
+  return __builtin_convertvector(v, Doubles);
+#endif
+}
 [[gnu::always_inline]] inline Floats square_root(Floats v) {
 #ifdef __AVX__
   return _mm256_sqrt_ps(v);
@@ -32,16 +39,24 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 #endif
 }
 [[gnu::always_inline]] inline Floats lesser(const Floats& a, const Floats& b) {
+#ifdef __AVX__
+  return _mm256_min_ps(a, b);  // as below, in one instruction
+#else
   return a < b ? a : b;
+#endif
 }
 [[gnu::always_inline]] inline Floats greater(const Floats& a, const Floats& b) {
+#ifdef __AVX__
+  return _mm256_max_ps(a, b);
+#else
   return a > b ? a : b;
+#endif
 }
 [[gnu::always_inline]] inline Floats magnitude(const Floats& v) {
   return greater(v, -v);
 }
 [[gnu::always_inline]] inline Floats positive_cubed(const Floats& v) {
-  const Floats p = v > 0.f ? v : Floats{};
+  const Floats p = greater(v, Floats{});
   return p * p * p;
 }
 /// Is any lane not zero?
@@ -64,21 +79,9 @@ inline constexpr float kLeastRadius = 2.f;
 
 /// What is the same for all cells of a sphere.
 struct Sphere {
-  float radius, reach;
-  float linear_offset;  ///< f(r) of the linear rule
+  float radius;
+  float linear_offset;  ///< see linear_offset()
   int parts;            ///< cells are cut into parts^3
-
-  Sphere(double r, int subcells)
-      : radius(static_cast<float>(r)), reach(radius + kHalfDiagonal), parts(subcells) {
-    // Jones & Williams (docs key: joneswilliams2017): the fraction of a cell with a face towards the centre
-    // at distance d is f(r) - (d - r), with f = V_a - r + 1/2 and V_a the volume under the sphere over a unit
-    // square.
-    const double square = r * r, s = __builtin_sqrt(square > 0.5 ? square - 0.5 : 0.);
-    const double volume = (1. / 12 - square) * __builtin_atan(0.5 * s / (0.5 - square)) + s / 3 +
-                          (square - 1. / 12) * __builtin_atan(0.5 / s) -
-                          4. / 3 * r * square * __builtin_atan(0.25 / (r * s));
-    linear_offset = static_cast<float>(square > 0.5 ? volume - r + 0.5 : 0.5);
-  }
 };
 
 /// Part of a cube of edge 1 with its centre at (x, y, z) from the centre of a sphere, by the plane through
@@ -97,7 +100,8 @@ struct Sphere {
                nz = greater(magnitude(z) * inverse, Floats{} + least);
   const Floats sum = nx + ny + nz, product = nx * ny * nz;
   // Mean of t^2 over the cut through the middle: 1/6 for a face, 5/24 for the hexagon across a diagonal.
-  const Floats curvature = (1.f / 12 + (27.f / 48) * product * product) / radius;
+  const float inverse_radius = 1 / radius;
+  const Floats curvature = (inverse_radius / 12) + ((27.f / 48) * inverse_radius) * (product * product);
   const Floats offset =
       0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
   const Floats whole = offset > 0.5f * sum ? Floats{} + 1.f : Floats{};
@@ -116,9 +120,9 @@ template <FractionMethod kMethod>
     const Floats fraction = (sphere.linear_offset + sphere.radius) - square_root(squared);
     return lesser(greater(fraction, Floats{}), Floats{} + 1.f);
   }
-  const float inside = sphere.radius - kHalfDiagonal;
+  const float inside = sphere.radius - kHalfDiagonal, outside = sphere.radius + kHalfDiagonal;
   const Floats in = inside > 0 ? (squared < inside * inside ? Floats{} + 1.f : Floats{}) : Floats{};
-  const Floats out = squared > sphere.reach * sphere.reach ? Floats{} + 1.f : Floats{};
+  const Floats out = squared > outside * outside ? Floats{} + 1.f : Floats{};
   if (!any(1.f - (in + out))) return in;
   Floats fraction{};
   if constexpr (kMethod == FractionMethod::exact) {

@@ -111,6 +111,9 @@ void save_state(const Fluid& fluid, const std::string& path) {
 void load_state(Fluid& fluid, const std::string& path) {
   const Decomposition& d = fluid.decomposition();
   const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
+  if (!file.exists("/populations") || !file.exists("/solid_labels"))
+    throw_user_error({"fluid restart", "file", path, "hold a saved state of a fluid",
+                      "take the file that the run's restart line wrote"});
   const std::vector<std::size_t> expected = with_direction(cells_of(d), 0).whole,
                                  found = file.extents("/populations");
   if (found != expected)

@@ -54,7 +54,14 @@ const Vec3& Fluid::force() const {
   return core_->force;
 }
 void Fluid::step() {
-  core_->step();
+  core_->step(nullptr);
+}
+void Fluid::step(RowVisitor& visitor) {
+  if (!core_->partial_solids) throw std::logic_error("Fluid: a visitor without partly covered cells");
+  core_->step(&visitor);
+}
+int Fluid::rows_per_block() const {
+  return core_->rows_per_block();
 }
 void Fluid::bare_update() {
   core_->bare_update();

@@ -6,6 +6,13 @@
 
 namespace suffuse::lbm {
 
+namespace {
+
+/// Cells ahead that arrays of partly covered cells are fetched: two cache lines of floats.
+constexpr std::ptrdiff_t kSolidsAhead = 128;
+
+}  // namespace
+
 FluidCoreBase::FluidCoreBase(const FluidSettings& s, const Decomposition& d)
     : settings(s), decomposition(d), instruction_set(s.instruction_set.value_or(default_instruction_set())) {
   check(settings.collision);
@@ -76,6 +83,8 @@ KernelCall<T> FluidCore<T>::kernel_call() {
   call.solid = labels_ ? labels_->data() : nullptr;
   if (store_) {
     store_->give_to(call);
+    call.solids_ahead = kSolidsAhead;
+    call.exchange_ahead = true;
     call.solid_operator = partial_solids->solid_operator;
     call.weighting = weighting_terms<T>(*partial_solids, c.relaxation_time);
   }
@@ -83,43 +92,66 @@ KernelCall<T> FluidCore<T>::kernel_call() {
 }
 
 template <class T>
-void FluidCore<T>::sweep(Kernel<T> kernel) {
+void FluidCore<T>::sweep(Kernel<T> kernel, RowVisitor* visitor) {
   const int planes = populations_.cells()[2];
   if (!halo_.can_start_early(odd)) {
-    sweep_planes(kernel, 0, planes);
+    sweep_planes(kernel, visitor, 0, planes);
     return;
   }
-  sweep_planes(kernel, 0, 1);
-  sweep_planes(kernel, std::max(1, planes - 1), planes);
+  sweep_planes(kernel, visitor, 0, 1);
+  sweep_planes(kernel, visitor, std::max(1, planes - 1), planes);
   halo_.start_early(populations_, odd);
-  sweep_planes(kernel, 1, planes - 1);
+  sweep_planes(kernel, visitor, 1, planes - 1);
+}
+
+/// A few rows at a time, at most 0.4 MB: what the kernel wrote is still in the second-level cache. As many in
+/// all blocks of a plane, as near as that goes.
+template <class T>
+int FluidCore<T>::rows_per_block() const {
+  constexpr std::ptrdiff_t bytes = 400000;
+  const int most = static_cast<int>(std::max<std::ptrdiff_t>(
+      1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
+  const int rows = populations_.cells()[1], blocks = (rows + most - 1) / most;
+  return (rows + blocks - 1) / blocks;
 }
 
 template <class T>
-void FluidCore<T>::sweep_planes(Kernel<T> kernel, int begin_z, int end_z) {
+void FluidCore<T>::sweep_planes(Kernel<T> kernel, RowVisitor* visitor, int begin_z, int end_z) {
   KernelCall<T> call = kernel_call();
   call.begin_z = begin_z;
   call.end_z = end_z;
-  if (!patches_.has_near_rows() && !halo_.has_near_rows()) {
+  if (visitor == nullptr && !patches_.has_near_rows() && !halo_.has_near_rows()) {
     kernel(call);
     return;
   }
-  // A few rows at a time, about a third of a megabyte: what the kernel wrote is still in the second-level
-  // cache.
-  constexpr std::ptrdiff_t bytes = 300000;
-  const int rows = static_cast<int>(std::max<std::ptrdiff_t>(
-      1, bytes / (populations_.row_pitch() * kDirections * std::ptrdiff_t{sizeof(T)})));
+  const int rows = rows_per_block();
   const Index3& cells = populations_.cells();
+  if (visitor != nullptr) {  // writes the arrays of the next block next, and reads the exchange
+    call.solids_ahead = call.row_pitch * rows;
+    call.exchange_ahead = !visitor->reads_exchange();
+  }
   for (int z = begin_z; z < end_z; ++z)
     for (int y = 0; y < cells[1]; y += rows) {
       call.begin_z = z;
       call.end_z = z + 1;
       call.begin_y = y;
       call.end_y = std::min(y + rows, cells[1]);
-      kernel(call);
-      halo_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
-      patches_.apply_near_rows(populations_, odd, call.begin_y, call.end_y, z);
+      sweep_rows(call, kernel, visitor);
     }
+}
+
+template <class T>
+void FluidCore<T>::sweep_rows(KernelCall<T>& call, Kernel<T> kernel, RowVisitor* visitor) {
+  const RowBlock block{call.begin_z, call.begin_y, call.end_y};
+  if (visitor != nullptr) {
+    visitor->before(block);
+    if (visitor->reads_exchange()) store_->give_rows_to(call, block, rows_per_block());
+  }
+  kernel(call);
+  if (visitor != nullptr && visitor->reads_exchange())
+    visitor->after(block, PartialSolidStore<T>::exchange_of(call));
+  halo_.apply_near_rows(populations_, odd, block.begin_y, block.end_y, block.z);
+  patches_.apply_near_rows(populations_, odd, block.begin_y, block.end_y, block.z);
 }
 
 template <class T>
@@ -140,11 +172,11 @@ PartialSolidArrays FluidCore<T>::use_partial_solids(const PartialSolidSettings& 
 }
 
 template <class T>
-void FluidCore<T>::step() {
+void FluidCore<T>::step(RowVisitor* visitor) {
   const CollisionSettings& c = settings.collision;
   const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
                               c.smagorinsky > 0, solid_kind()};
-  sweep(kernel_for<T>(instruction_set, variant));
+  sweep(kernel_for<T>(instruction_set, variant), visitor);
   const FaceContext context{force, c.incompressible};
   // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
   // solids last, because the exchange also copies places that they then overwrite with what really enters.

@@ -18,7 +18,8 @@ class FluidCoreBase {
   FluidCoreBase(const FluidSettings& settings, const Decomposition& decomposition);
   virtual ~FluidCoreBase() = default;
 
-  virtual void step() = 0;
+  virtual void step(RowVisitor* visitor) = 0;
+  virtual int rows_per_block() const = 0;
   virtual double population(int direction, int x, int y, int z) const = 0;
   virtual void set_population(int direction, int x, int y, int z, double value) = 0;
   virtual void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) = 0;
@@ -48,7 +49,8 @@ class FluidCore final : public FluidCoreBase {
  public:
   FluidCore(const FluidSettings& settings, const Decomposition& decomposition);
 
-  void step() override;
+  void step(RowVisitor* visitor) override;
+  int rows_per_block() const override;
   void bare_update() override;
   double population(int direction, int x, int y, int z) const override;
   void set_population(int direction, int x, int y, int z, double value) override;
@@ -70,8 +72,9 @@ class FluidCore final : public FluidCoreBase {
  private:
   KernelCall<T> kernel_call();
   SolidKind solid_kind() const;
-  void sweep(Kernel<T> kernel);
-  void sweep_planes(Kernel<T> kernel, int begin_z, int end_z);
+  void sweep(Kernel<T> kernel, RowVisitor* visitor);
+  void sweep_planes(Kernel<T> kernel, RowVisitor* visitor, int begin_z, int end_z);
+  void sweep_rows(KernelCall<T>& call, Kernel<T> kernel, RowVisitor* visitor);
   std::ptrdiff_t place(int direction, int x, int y, int z) const;
 
   Populations<T> populations_;

@@ -15,7 +15,8 @@ double mach_of(const FluidExtremes& extremes) {
 }
 
 /// Close to 0.5 the viscosity is too small for the spacing; else the time step is too long for the speed.
-std::string remedy(const Units& units) {
+/// `share` of the time step would do as far as the Mach number goes.
+std::string remedy(const Units& units, double share) {
   if (units.relaxation_time() < 0.52)
     return fmt::format(
         "relaxation_time is {:.4g}, close to its lower limit: use a smaller spacing, or `lbm collision "
@@ -23,7 +24,7 @@ std::string remedy(const Units& units) {
         units.relaxation_time());
   return fmt::format(
       "use a timestep below {:.3g} s (relaxation_time below {:.4g}), or change boundary values more slowly",
-      units.time_step(), units.relaxation_time());
+      share * units.time_step(), 0.5 + share * (units.relaxation_time() - 0.5));
 }
 
 }  // namespace
@@ -31,13 +32,14 @@ std::string remedy(const Units& units) {
 void require_stable(const FluidExtremes& extremes, const Units& units, double time_si, double largest_mach,
                     const std::string& who) {
   const std::string what = fmt::format("flow at {:.5g} s", time_si);
-  if (!extremes.finite) throw_user_error({who, what, "not a number", "stay finite", remedy(units)});
+  constexpr double half = 0.5;
+  if (!extremes.finite) throw_user_error({who, what, "not a number", "stay finite", remedy(units, half)});
   const double mach = mach_of(extremes);
   if (mach > largest_mach)
     throw_user_error(
         {who, what, fmt::format("Mach number {:.3g}", mach),
          fmt::format("stay below {:g}: a lattice fluid is nearly incompressible only there", largest_mach),
-         remedy(units)});
+         remedy(units, std::min(half, largest_mach / mach))});
 }
 
 std::string health_text(const FluidExtremes& extremes) {

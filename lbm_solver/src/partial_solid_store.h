@@ -1,9 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "populations.h"
-#include "suffuse/lbm/partial_solids.h"
+#include "suffuse/lbm/row_visitor.h"
 
 namespace suffuse::lbm {
 
@@ -43,6 +44,20 @@ class PartialSolidStore {
     }
   }
 
+  /// The exchange of one block of rows, of at most `rows`, goes to a few rows of their own that every block
+  /// uses again, and so stays in the cache. Indexed as the whole arrays.
+  void give_rows_to(KernelCall<T>& call, const RowBlock& block, int rows) {
+    constexpr std::ptrdiff_t guard = 64;
+    const std::ptrdiff_t stride = row_pitch_ * rows + guard;
+    if (rows_.empty()) rows_.assign(static_cast<std::size_t>(3 * stride + 2 * guard), T(0));
+    const std::ptrdiff_t first = row_pitch_ * block.begin_y + plane_pitch_ * block.z;
+    for (std::ptrdiff_t i = 0; i < 3; ++i) call.exchange[i] = rows_.data() + (guard + stride * i - first);
+  }
+
+  static ExchangeArrays exchange_of(const KernelCall<T>& call) {
+    return std::array<const T*, 3>{call.exchange[0], call.exchange[1], call.exchange[2]};
+  }
+
   PartialSolidCell cell(std::ptrdiff_t index) const {
     const float strength = strength_ ? strength_->data()[index] : fraction_.data()[index];
     return {fraction_.data()[index], strength,
@@ -51,7 +66,7 @@ class PartialSolidStore {
 
   std::size_t bytes() const {
     return fraction_.bytes() + (strength_ ? strength_->bytes() : 0) + 3 * momentum_[0].bytes() +
-           3 * exchange_[0].bytes();
+           3 * exchange_[0].bytes() + rows_.size() * sizeof(T);
   }
 
  private:
@@ -65,6 +80,7 @@ class PartialSolidStore {
   std::unique_ptr<CellValues<float>> strength_;
   CellValues<float> momentum_[3];
   CellValues<T> exchange_[3];
+  std::vector<T> rows_;
 };
 
 }  // namespace suffuse::lbm

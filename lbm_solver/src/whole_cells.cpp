@@ -44,6 +44,14 @@ Index3 whole_cells(const Vec3& size, double spacing, const std::string& who) {
   Index3 cells{};
   for (int a = 0; a < 3; ++a) {
     const double whole = std::max(1., std::round(size[a] / spacing));
+    if (!(size[a] > 0))
+      throw_user_error({who, fmt::format("size along {}", "xyz"[a]), fmt::format("{:g} m", size[a]), "be > 0",
+                        "the region must lie in the box"});
+    constexpr double most = 1e6;
+    if (whole > most)
+      throw_user_error({who, "spacing", fmt::format("{:g} m", spacing),
+                        fmt::format("give at most {:g} cells along an axis, not {:g}", most, whole),
+                        "SI units"});
     if (distance_from_whole(size[a], spacing) > kRounding) {
       const auto other = nearest_fitting_spacing(size, spacing);
       throw_user_error({who, fmt::format("size along {}", "xyz"[a]), fmt::format("{:g} m", size[a]),

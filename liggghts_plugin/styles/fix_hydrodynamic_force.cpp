@@ -174,6 +174,7 @@ void FixHydrodynamicForce::unpack_restart(int i, int nth) {
   double* values = atom->extra[i];
   for (int n = 0; n < nth; ++n) values += static_cast<int>(*values);
   unpack_exchange(i, values + 1);
+  restored_ = true;
 }
 
 int FixHydrodynamicForce::size_restart(int) {

@@ -56,6 +56,8 @@ class FixHydrodynamicForce : public Fix {
   /// Of owned grains, contiguous, kLoadValues and kHistoryValues a grain; valid until grains migrate.
   double* load();
   double* history();
+  /// Has a restart file given grains of this rank their values back?
+  bool restored() const { return restored_; }
 
   /// Brings the forces that the next half step of integration starts with up to date with the loads.
   void loads_changed();
@@ -78,7 +80,8 @@ class FixHydrodynamicForce : public Fix {
   Addition addition(int i) const;
 
   double** history_ = nullptr;
-  std::vector<Addition> applied_;             // what atom->f and atom->torque hold of ours
+  std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
+  bool restored_ = false;
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts
   std::vector<double>* sum_torque_ = nullptr;
 };

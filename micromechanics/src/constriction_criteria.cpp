@@ -28,6 +28,18 @@ std::string micrometres(double diameter) {
 
 }  // namespace
 
+const std::vector<ConstrictionLimitName>& constriction_limit_names() {
+  using L = ConstrictionLimits;
+  static const std::vector<ConstrictionLimitName> names = {
+      {"filter_2007", &L::filter_2007},     {"stable_2011", &L::stable_2011},
+      {"unstable_2011", &L::unstable_2011}, {"chapter_4", &L::chapter_4},
+      {"stable_2015", &L::stable_2015},     {"cyclic_2017", &L::cyclic_2017},
+      {"coordination", &L::coordination},   {"stress_reduction", &L::stress_reduction},
+      {"fines_split", &L::fines_split},     {"dense_split", &L::dense_split},
+      {"dense_from", &L::dense_from}};
+  return names;
+}
+
 GradingSplit thesis_split(const Grading& grading, double relative_density, const ConstrictionLimits& limits,
                           const StabilityLimits& stability) {
   constexpr double rounding = 1e-9;

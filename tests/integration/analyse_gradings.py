@@ -137,6 +137,17 @@ def refused(run, what, words, says, outputs):
         expect(not left, f"{what}: leaves {left}")
 
 
+def constriction_limits(run, gradings):
+    # Dc35/d85 of 8b at Rd = 0.5 is 0.491.
+    for limit, verdict in (("chapter_4=0.49", "unstable"), ("chapter_4=0.5", "stable")):
+        run("constriction", gradings / "appendix_A.csv", "--relative-density", 0.5, "--limit", limit, "--output", "criteria.csv")
+        found = {row["criterion"]: row for row in rows(run.folder / "criteria.csv")}
+        expect(found["Chapter 4 of the thesis"]["verdict"] == verdict, f"{limit} makes 8b {verdict}")
+    result = run("constriction", gradings / "appendix_A.csv", "--limit", "fines_split=0.31")
+    expect("split at 30 % (at the gap)" in result.stdout, "the rule of the split is a limit, too")
+    refused(run, "a constriction's limit for a grading", ("grading", gradings / "appendix_A.csv", "--limit", "chapter_4=1"), "kezdi", ())
+
+
 def bad_input(run, gradings):
     outputs = ("no_o.csv", "no_c.csv", "no_s.csv")
     for what, (text, says) in BAD_FILES.items():
@@ -187,6 +198,7 @@ def main():
         good_gradings(run, gradings)
         good_packings(run)
         equal_spheres(run)
+        constriction_limits(run, gradings)
         bad_input(run, gradings)
         hydraulic(run, gradings)
     if PROBLEMS:

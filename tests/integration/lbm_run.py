@@ -89,6 +89,12 @@ def check_restart(program):
         program.must_run(wet_box(processors=grid, restart="half.h5.grains") + water + "lbm restart read half.h5\n" + last,
                          folder)
         second = positions(path / "grains.dump")
+        late = wet_box(processors=grid, restart="half.h5.grains").replace("fix hydrodynamic_force all hydrodynamic/force\n", "")
+        code, screen = program.run(late + "run 0\n" + water + "lbm restart read half.h5\nlbm run 4e-3\n", folder)
+        expect(code == 1 and "without the loads of the grains" in screen, f"a restart without loads: {code}\n{screen[-500:]}")
+        late = wet_box(processors=grid, restart="half.h5.grains")
+        code, screen = program.run(late + "run 10\n" + water + "lbm restart read half.h5\nlbm run 4e-3\n", folder)
+        expect(code == 1 and "meet grains of that step" in screen, f"grains of another step: {code}\n{screen[-500:]}")
     expect(whole.keys() == second.keys(), "grains differ after a restart")
     different = [grain for grain in whole if whole[grain] != second[grain]]
     expect(not different, f"{len(different)} grains differ, first {whole[different[0]]} {second[different[0]]}" if different else "")

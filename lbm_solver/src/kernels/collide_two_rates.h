@@ -26,15 +26,19 @@ struct HeldPopulations {
 
 /// The same, left in memory: get() reads a place, put() writes the place of the opposite direction. A pair of
 /// opposite directions writes the two places that it reads, so an operator may go pair by pair as long as it
-/// gets both before it puts either. For instruction sets with few registers: reading twice is cheaper than
-/// keeping copies on the stack.
+/// gets both before it puts either. There are too few registers for 19 populations and what a collision needs
+/// besides: reading twice is cheaper than keeping copies on the stack.
 template <class T>
 struct PlacedPopulations {
   T* const* place;
   std::ptrdiff_t x;
+  int lanes;  ///< that are written
   [[gnu::always_inline]] Pack<T> get(int i) const { return load<T>(place[i] + x); }
   [[gnu::always_inline]] void put(int i, const Pack<T>& value) const {
-    store<T>(place[opposite(i)] + x, value);
+    if (lanes == kPackWidth<T>)
+      store<T>(place[opposite(i)] + x, value);
+    else
+      store_lanes<T>(place[opposite(i)] + x, value, lanes);
   }
 };
 
@@ -98,30 +102,24 @@ struct TwoRates {
 
   /// What pairs of one weight share. With s and d the sum and difference of a pair, the pair after the
   /// collision is E + O and E - O with
-  ///   E = keep_even s + (quadratic cu + even_force . c) cu + isotropic,
-  ///   O = keep_odd d + odd cu + odd_force . c.
+  ///   E = keep_even s + (slope . c) (u . c) + isotropic,
+  ///   O = keep_odd d + odd . c.
   template <class T>
   struct Shared {
-    Pack<T> keep_even, keep_odd;          ///< (1 - rate)/2
-    Pack<T> quadratic;                    ///< 9/2 w rate rho
-    Pack<T> isotropic;                    ///< w (rate (rho - 1 - 3/2 rho u^2) - 3 (1 - rate/2) u.F)
-    Pack<T> odd;                          ///< 3 w rate rho
-    Pack<T> even_force[3], odd_force[3];  ///< 9 w (1 - rate/2) F and 3 w (1 - rate/2) F
+    Pack<T> slope[3];   ///< 9/2 w (rate rho u + (2 - rate) F)
+    Pack<T> odd[3];     ///< 3 w (rate rho u + (1 - rate/2) F)
+    Pack<T> isotropic;  ///< w (rate (rho - 1 - 3/2 rho u^2) - 3 (1 - rate/2) u.F)
   };
 
   template <int Direction, class T, class Populations>
   [[gnu::always_inline]] static void relax_pair(Populations& g, const CellPack<T>& cell,
+                                                const Pack<T>& keep_even, const Pack<T>& keep_odd,
                                                 const Shared<T>& shared) {
     const Pack<T> forward = g.get(Direction), backward = g.get(Direction + 1);
     const Pack<T> sum = forward + backward, difference = forward - backward;
-    const Pack<T> cu = along<Direction>(cell.velocity);
-    Pack<T> slope = shared.quadratic * cu, odd = shared.odd * cu;
-    if constexpr (kForced) {
-      slope = slope + along<Direction>(shared.even_force);
-      odd = odd + along<Direction>(shared.odd_force);
-    }
-    const Pack<T> even = shared.keep_even * sum + (slope * cu + shared.isotropic);
-    odd = shared.keep_odd * difference + odd;
+    const Pack<T> cu = along<Direction>(cell.velocity), slope = along<Direction>(shared.slope);
+    const Pack<T> even = keep_even * sum + (slope * cu + shared.isotropic);
+    const Pack<T> odd = keep_odd * difference + along<Direction>(shared.odd);
     g.put(Direction, even + odd);
     g.put(Direction + 1, even - odd);
   }
@@ -144,40 +142,40 @@ struct TwoRates {
     }
     const Pack<T> u2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
     Pack<T> isotropic = even_rate * (cell.density_deviation - (T(1.5) * cell.density) * u2);
-    Pack<T> even_force, odd_force;
-    if constexpr (kForced) {
-      even_force = T(1) - T(0.5) * even_rate;
-      odd_force = T(1) - T(0.5) * odd_rate;
-      isotropic = isotropic -
-                  (T(3) * even_force) * (u[0] * cell.force[0] + u[1] * cell.force[1] + u[2] * cell.force[2]);
+    constexpr T w0 = static_cast<T>(kWeight[0]), w1 = static_cast<T>(kWeight[1]);
+    Shared<T> axes, diagonals;
+    const Pack<T> even_flow = (T(4.5) * w1 * even_rate) * cell.density,
+                  odd_flow = (T(3) * w1 * odd_rate) * cell.density;
+    for (int a = 0; a < 3; ++a) {
+      axes.slope[a] = even_flow * u[a];
+      axes.odd[a] = odd_flow * u[a];
     }
-    const auto shared_at = [&](T w) {
-      Shared<T> shared;
-      shared.keep_even = T(0.5) - T(0.5) * even_rate;
-      shared.keep_odd = T(0.5) - T(0.5) * odd_rate;
-      shared.quadratic = (T(4.5) * w * even_rate) * cell.density;
-      shared.isotropic = w * isotropic;
-      shared.odd = (T(3) * w * odd_rate) * cell.density;
-      if constexpr (kForced)
-        for (int a = 0; a < 3; ++a) {
-          shared.even_force[a] = (T(9) * w * even_force) * cell.force[a];
-          shared.odd_force[a] = (T(3) * w * odd_force) * cell.force[a];
-        }
-      return shared;
-    };
-    constexpr T w0 = static_cast<T>(kWeight[0]);
+    if constexpr (kForced) {
+      const auto& f = cell.force;
+      const Pack<T> even_force = T(1) - T(0.5) * even_rate, odd_force = T(1) - T(0.5) * odd_rate;
+      isotropic = isotropic - (T(3) * even_force) * (u[0] * f[0] + u[1] * f[1] + u[2] * f[2]);
+      for (int a = 0; a < 3; ++a) {
+        axes.slope[a] = axes.slope[a] + (T(9) * w1 * even_force) * f[a];
+        axes.odd[a] = axes.odd[a] + (T(3) * w1 * odd_force) * f[a];
+      }
+    }
+    axes.isotropic = w1 * isotropic;
+    diagonals.isotropic = T(0.5) * axes.isotropic;  // whose weight is half of the axes'
+    for (int a = 0; a < 3; ++a) {
+      diagonals.slope[a] = T(0.5) * axes.slope[a];
+      diagonals.odd[a] = T(0.5) * axes.odd[a];
+    }
+    const Pack<T> keep_even = T(0.5) - T(0.5) * even_rate, keep_odd = T(0.5) - T(0.5) * odd_rate;
     g.put(0, (T(1) - even_rate) * g.get(0) + w0 * isotropic);
-    const Shared<T> axes = shared_at(static_cast<T>(kWeight[1])),
-                    diagonals = shared_at(static_cast<T>(kWeight[7]));
-    relax_pair<1, T>(g, cell, axes);
-    relax_pair<3, T>(g, cell, axes);
-    relax_pair<5, T>(g, cell, axes);
-    relax_pair<7, T>(g, cell, diagonals);
-    relax_pair<9, T>(g, cell, diagonals);
-    relax_pair<11, T>(g, cell, diagonals);
-    relax_pair<13, T>(g, cell, diagonals);
-    relax_pair<15, T>(g, cell, diagonals);
-    relax_pair<17, T>(g, cell, diagonals);
+    relax_pair<1, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<3, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<5, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<7, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<9, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<11, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<13, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<15, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<17, T>(g, cell, keep_even, keep_odd, diagonals);
   }
 };
 

@@ -46,6 +46,10 @@ struct KernelCall {
   const float* strength;
   const float* solid_momentum[3];
   T* exchange[3];
+  /// How many cells ahead the arrays above are fetched: those that the sweep comes to next, or, where
+  /// somebody writes them just before, those that are written next. The exchange only in the first case.
+  std::ptrdiff_t solids_ahead;
+  bool exchange_ahead;
   SolidOperator solid_operator;
   WeightingTerms<T> weighting;
 };

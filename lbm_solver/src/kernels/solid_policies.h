@@ -6,7 +6,9 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
 /// A solid policy is how a collision reads solid cells. It has two hooks, both given the index of the pack's
 /// first cell and how many of its lanes are cells of the row:
-///   force(cells, lanes, call, density, momentum, force)  before the velocity is formed, may add a force;
+///   force(cells, lanes, call, cell)               before the velocity is formed, may add a force (half of
+///   which
+///                                                 the momentum has already);
 ///   mix(cells, lanes, call, cell, before, after)         after the collision, may replace populations.
 /// Constants say what a policy uses, so that the others cost nothing. Streaming and boundaries know of
 /// neither.
@@ -34,21 +36,18 @@ struct SolidMask {
   }
 };
 
-/// As the populations' streams (see kPrefetchBytes in stream_collide.h): seven more.
+/// As the populations' streams (see kPrefetchBytes in stream_collide.h): each line of floats once.
 template <class T>
 [[gnu::always_inline]] inline void fetch_ahead(const KernelCall<T>& call, std::ptrdiff_t cells) {
-  constexpr int bytes = 512;
-  const auto fetch = [](const void* from, int write) {
-    if (write == 1)
-      __builtin_prefetch(static_cast<const char*>(from) + bytes, 1);
-    else
-      __builtin_prefetch(static_cast<const char*>(from) + bytes, 0);
-  };
-  fetch(call.fraction + cells, 0);
-  for (int a = 0; a < 3; ++a) {
-    fetch(call.solid_momentum[a] + cells, 0);
-    fetch(call.exchange[a] + cells, 1);
+  constexpr std::ptrdiff_t floats = 16;
+  if (kPackWidth<T> == floats || (cells & (floats - 1)) < kPackWidth<T>) {
+    const std::ptrdiff_t at = cells + call.solids_ahead;
+    __builtin_prefetch(call.fraction + at, 1);
+    if (call.strength != call.fraction) __builtin_prefetch(call.strength + at, 1);
+    for (int a = 0; a < 3; ++a) __builtin_prefetch(call.solid_momentum[a] + at, 1);
   }
+  if (!call.exchange_ahead) return;
+  for (int a = 0; a < 3; ++a) __builtin_prefetch(call.exchange[a] + cells + call.solids_ahead, 1);
 }
 
 template <class T>
@@ -58,25 +57,19 @@ template <class T>
     if (lanes == kPackWidth<T>)
       store<T>(call.exchange[a] + cells, exchange[a]);
     else
-      for (int lane = 0; lane < lanes; ++lane) call.exchange[a][cells + lane] = exchange[a][lane];
+      store_lanes<T>(call.exchange[a] + cells, exchange[a], lanes);
   }
 }
 
-/// B and B times the solids' velocity, from the sums over solids (see SolidWeighting). Where the fractions of
-/// a cell add up to more than one, they shrink in proportion.
+/// The divisor of SolidWeighting's B. Where the fractions of a cell add up to more than one,
+/// they shrink in proportion.
 template <class T>
-[[gnu::always_inline]] inline void weigh_solids(std::ptrdiff_t cells, const KernelCall<T>& call,
-                                                const Pack<T>& fraction, Pack<T>& weight,
-                                                Pack<T> (&weight_velocity)[3]) {
-  const WeightingTerms<T>& terms = call.weighting;
-  const Pack<T> strength = load_floats<T>(call.strength + cells);
+[[gnu::always_inline]] inline Pack<T> weighting_divisor(const WeightingTerms<T>& terms,
+                                                        const Pack<T>& fraction, const Pack<T>& strength) {
   const Pack<T> clear = T(1) - fraction;
   const Pack<T> open = clear > T(0) ? clear : Pack<T>{};
   const Pack<T> covered = clear < T(0) ? fraction : Pack<T>{} + T(1);  // more than one where solids overlap
-  const Pack<T> factor =
-      terms.numerator / (terms.open * open + terms.strength * strength + terms.constant * covered);
-  weight = strength * factor;
-  for (int a = 0; a < 3; ++a) weight_velocity[a] = factor * load_floats<T>(call.solid_momentum[a] + cells);
+  return terms.open * open + terms.strength * strength + terms.constant * covered;
 }
 
 /// Partly covered cells as a drag inside the cell (SolidOperator::force).
@@ -84,18 +77,24 @@ struct PartialForce {
   static constexpr bool kAddsForce = true;
   static constexpr bool kMixes = false;
 
+  /// With h half of what the cell exchanges: h = B (m - rho us), m the momentum with half of the other
+  /// forces.
   template <class T>
   [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
-                                           const Pack<T>& density, const Pack<T> (&momentum)[3],
-                                           Pack<T> (&force)[3]) {
+                                           CellPack<T>& cell) {
     fetch_ahead(call, cells);
     const Pack<T> fraction = load_floats<T>(call.fraction + cells);
     if (!any_positive(fraction)) return;
-    Pack<T> weight, weight_velocity[3], exchange[3];
-    weigh_solids<T>(cells, call, fraction, weight, weight_velocity);
+    const Pack<T> strength = load_floats<T>(call.strength + cells);
+    const Pack<T> factor =
+        call.weighting.numerator / weighting_divisor<T>(call.weighting, fraction, strength);
+    const Pack<T> weight = strength * factor, flow = cell.density * factor;
+    Pack<T> exchange[3];
     for (int a = 0; a < 3; ++a) {
-      exchange[a] = T(2) * (weight * (momentum[a] + T(0.5) * force[a]) - density * weight_velocity[a]);
-      force[a] = force[a] - exchange[a];
+      const Pack<T> half = weight * cell.momentum[a] - flow * load_floats<T>(call.solid_momentum[a] + cells);
+      exchange[a] = half + half;
+      cell.force[a] = cell.force[a] - exchange[a];
+      cell.momentum[a] = cell.momentum[a] - half;
     }
     store_exchange<T>(call, cells, lanes, exchange);
   }
@@ -170,7 +169,12 @@ struct PartialMixed {
     const Pack<T> fraction = load_floats<T>(call.fraction + cells);
     if (!any_positive(fraction)) return;
     Mixing<T> mixing;
-    weigh_solids<T>(cells, call, fraction, mixing.weight, mixing.solid_velocity);
+    const Pack<T> strength = load_floats<T>(call.strength + cells);
+    const Pack<T> factor =
+        call.weighting.numerator / weighting_divisor<T>(call.weighting, fraction, strength);
+    mixing.weight = strength * factor;
+    for (int a = 0; a < 3; ++a)
+      mixing.solid_velocity[a] = factor * load_floats<T>(call.solid_momentum[a] + cells);
     const Pack<T> inverse = T(1) / (mixing.weight > T(0) ? mixing.weight : broadcast<T>(1));
     for (int a = 0; a < 3; ++a) {
       mixing.solid_velocity[a] = mixing.solid_velocity[a] * inverse;

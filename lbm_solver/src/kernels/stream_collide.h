@@ -33,13 +33,14 @@ template <class Operator, class Solid, bool kForced, class T, class Populations>
                                                 const KernelCall<T>& call) {
   CellPack<T> cell;
   add_up<T>(g, cell.density_deviation, cell.momentum);
+  asm volatile("" ::: "memory");  // what comes from memory is read again, not kept on the stack
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) cell.force[a] = broadcast<T>(call.force[a]);
   cell.density = T(1) + call.compressibility * cell.density_deviation;
-  if constexpr (Solid::kAddsForce) Solid::force(cells, lanes, call, cell.density, cell.momentum, cell.force);
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) cell.momentum[a] = cell.momentum[a] + T(0.5) * cell.force[a];
   cell.inverse_density = T(1) / cell.density;
+  if constexpr (Solid::kAddsForce) Solid::force(cells, lanes, call, cell);
   for (int a = 0; a < 3; ++a) cell.velocity[a] = cell.momentum[a] * cell.inverse_density;
 
   if constexpr (Solid::kMixes) {
@@ -58,36 +59,39 @@ template <class Operator, class Solid, bool kForced, class T, class Populations>
 inline constexpr int kPrefetchBytes = 512;
 inline constexpr int kLineBytes = 64;  ///< each cache line is fetched once
 
-/// Whether 19 populations and what a collision needs besides are too many for the registers.
-inline constexpr bool kFewRegisters = kPackBytes < 64;
-
-/// Steps `packs` packs of neighbouring cells. The last part of a row, shorter than a pack, comes here as well
-/// (see below), so that every cell goes through these very instructions and results do not depend on how rows
-/// are cut.
+/// Steps one row. Its last pack may reach beyond it: those lanes are collided as well, and then keep what
+/// they held. So every cell goes through these very instructions, and results do not depend on how rows are
+/// cut.
 template <class T, class Operator, class Solid, bool kForced>
-[[gnu::noinline]] void step_packs(T* const (&place)[kDirections], std::ptrdiff_t first_cell,
-                                  std::ptrdiff_t packs, int lanes, const KernelCall<T>& shared) {
+[[gnu::noinline]] void step_row(T* const (&place)[kDirections], std::ptrdiff_t row,
+                                const KernelCall<T>& shared) {
   constexpr int width = kPackWidth<T>;
   const KernelCall<T> call = shared;  // a copy of our own: stores through T* cannot change it
   T* p[kDirections];
 #pragma GCC unroll 19
   for (int i = 0; i < kDirections; ++i) p[i] = place[i];
-  for (std::ptrdiff_t x = 0; x < packs * width; x += width) {
+  for (std::ptrdiff_t x = 0; x < call.cells_x; x += width) {
+    const int lanes = call.cells_x - x < width ? static_cast<int>(call.cells_x - x) : width;
     if (kPackBytes == kLineBytes || x % (kLineBytes / static_cast<int>(sizeof(T))) == 0) {
 #pragma GCC unroll 19
       for (int i = 0; i < kDirections; ++i)
         __builtin_prefetch(reinterpret_cast<const char*>(p[i] + x) + kPrefetchBytes, 1);
     }
-    if constexpr (kFewRegisters && !Solid::kMixes) {
-      PlacedPopulations<T> g{p, x};
-      collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
+    if constexpr (!Solid::kMixes) {
+      PlacedPopulations<T> g{p, x, lanes};
+      collide_pack<Operator, Solid, kForced, T>(g, row + x, lanes, call);
     } else {
       HeldPopulations<T> g;
 #pragma GCC unroll 19
       for (int i = 0; i < kDirections; ++i) g.values[i] = load<T>(p[i] + x);
-      collide_pack<Operator, Solid, kForced, T>(g, first_cell + x, lanes, call);
+      collide_pack<Operator, Solid, kForced, T>(g, row + x, lanes, call);
 #pragma GCC unroll 19
-      for (int i = 0; i < kDirections; ++i) store<T>(p[opposite(i)] + x, g.values[i]);
+      for (int i = 0; i < kDirections; ++i) {
+        if (lanes == width)
+          store<T>(p[opposite(i)] + x, g.values[i]);
+        else
+          store_lanes<T>(p[opposite(i)] + x, g.values[i], lanes);
+      }
     }
   }
 }
@@ -100,25 +104,12 @@ template <class T, class Operator, class Solid, bool kForced>
 /// enters through a face or from a solid lies in its place before the sweep.
 template <class T, class Operator, class Solid, bool kForced>
 void stream_collide(const KernelCall<T>& call) {
-  constexpr int width = kPackWidth<T>;
-  const std::ptrdiff_t packs = call.cells_x / width;
-  const int rest = static_cast<int>(call.cells_x - packs * width);
   for (int z = call.begin_z; z < call.end_z; ++z)
     for (int y = call.begin_y; y < call.end_y; ++y) {
       const std::ptrdiff_t row = call.row_pitch * y + call.plane_pitch * z;
       T* place[kDirections];
       for (int i = 0; i < kDirections; ++i) place[i] = call.place[i] + row;
-      step_packs<T, Operator, Solid, kForced>(place, row, packs, width, call);
-      if (rest == 0) continue;
-      // Whole registers are read, past the end of the row too; what lies there is computed and dropped.
-      Pack<T> scratch[kDirections];
-      T* copy[kDirections];
-      for (int i = 0; i < kDirections; ++i) {
-        scratch[i] = load<T>(place[i] + packs * width);
-        copy[i] = reinterpret_cast<T*>(&scratch[i]);
-      }
-      step_packs<T, Operator, Solid, kForced>(copy, row + packs * width, 1, rest, call);
-      for (int i = 0; i < kDirections; ++i) store_lanes<T>(place[i] + packs * width, scratch[i], rest);
+      step_row<T, Operator, Solid, kForced>(place, row, call);
     }
 }
 

@@ -30,6 +30,14 @@ inline constexpr double kLargestCoefficient = 15;
 /// The law of an operator. A UserError for one that has none: `force` and `sc3` do.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
+/// Error of a packing's permeability (a share: 0.03 is 3 %) to be expected with `force`, the automatic
+/// coefficient and so many cells a Sauter diameter: root mean square, and the largest, of what packings show
+/// that were not fitted, 16 to 55 spheres in a periodic box (docs/decisions/solid-operator.md). Measured at 5
+/// and 8 cells, a power of the resolution between; extrapolated, hence a guess, below 5; beyond 8 as at 8,
+/// where the references are hardly better.
+double expected_permeability_error(double cells_per_sauter_diameter);
+double largest_permeability_error(double cells_per_sauter_diameter);
+
 /// What one rank's cells tell of the pores around a sphere: lattice units.
 struct PoreSums {
   double volume = 0, surface = 0;

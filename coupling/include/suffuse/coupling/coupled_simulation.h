@@ -14,6 +14,18 @@ struct CoupledTimes {
   double mapping = 0, fluid = 0, exchange = 0, grains = 0, output = 0;
 };
 
+/// Grains as they were read last, to the last digit: the quick answer for those at rest.
+class SeenGrains {
+ public:
+  bool same(const GrainArrays& grains) const;
+  void keep(const GrainArrays& grains);
+
+ private:
+  std::vector<double> positions_, velocities_, spins_, radii_;
+  std::vector<int> ids_;
+  Eigen::VectorXd coefficients_;
+};
+
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
 /// hands what it exerted to the grains and advances these.
 ///
@@ -69,6 +81,9 @@ class CoupledSimulation {
   void set_pressure_gradient(const Vec3& si);
 
  private:
+  void place_spheres();
+  void step_fluid(bool loads_wanted);
+  void hand_loads_over();
   void read_spheres(const GrainArrays& grains);
   bool survey_due(const GrainArrays& grains) const;
   void survey(const GrainArrays& grains);
@@ -90,6 +105,7 @@ class CoupledSimulation {
   long surveys_ = 0;
   bool loads_are_current_ = true;
   std::vector<LatticeSphere> spheres_;
+  SeenGrains seen_;
   std::vector<double> force_, torque_, lead_, spin_lead_;
   CoupledTimes times_;
 };

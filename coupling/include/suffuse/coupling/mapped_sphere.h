@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 namespace suffuse::coupling {
 
 /// How the part of a cell that a sphere covers is computed.
@@ -31,13 +29,15 @@ struct LatticeLoad {
   double spin_lead[3]{};
 };
 
-/// A sphere as it was last mapped, and which cells of this rank it may reach: rows of packs of eight cells,
-/// numbered from the low corner of the sub-box.
+/// A sphere as it was last placed, as far as its cells need it, and which cells of this rank it may reach:
+/// rows of packs of eight cells, numbered from the low corner of the sub-box.
 struct MappedSphere {
-  LatticeSphere sphere;
+  double position[3]{};
+  double reach = 0;  ///< beyond this distance from the centre no cell's centre is that of a covered cell
+  float radius = 0, coefficient = 1, velocity[3]{}, angular_velocity[3]{};
+  float linear_offset = 0;     ///< of FractionMethod::linear, see linear_offset()
   int x_start = 0, packs = 0;  ///< no packs: none of this rank's cells
   int y_begin = 0, y_end = 0, z_begin = 0, z_end = 0;
-  std::size_t first_entry = 0;  ///< strengths of its cells, eight a pack, x fastest
 };
 
 }  // namespace suffuse::coupling

@@ -5,30 +5,49 @@
 
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/decomposition.h"
+#include "suffuse/lbm/row_visitor.h"
 
 namespace suffuse::coupling {
+
+struct SliceList;
 
 /// Writes which part of each cell is covered and how fast it moves, for the collision to read; and adds up
 /// afterwards what the cells of each sphere received.
 ///
-/// Planes of cells (constant z) in which no sphere moved are left as they are. Any number of spheres may
-/// share a cell: where their fractions add up to more than one they shrink in proportion, and the exchange of
-/// a cell is shared in proportion to the strengths (fraction times coefficient). Fractions are multiples of
-/// 2^-22 and strengths with coefficients of 2^-18, so that their sums are exact in any order.
+/// Both can be done block of rows by block of rows, as the fluid sweeps them (lbm::RowVisitor): what one side
+/// writes is then in the cache when the other reads it. Planes of cells (constant z) in which no sphere moved
+/// are left as they are. Any number of spheres may share a cell: where their fractions add up to more than
+/// one they shrink in proportion, and the exchange of a cell is shared in proportion to the strengths
+/// (fraction times coefficient). Fractions are multiples of 2^-22 and strengths with coefficients of 2^-18,
+/// so that their sums are exact in any order.
 class SolidMapping {
  public:
   SolidMapping(const SolidSettings& settings, lbm::InstructionSet instruction_set,
-               const lbm::PartialSolidArrays& arrays, const lbm::CellBox& local_box);
+               const lbm::PartialSolidArrays& arrays, const lbm::CellBox& local_box, int rows_per_block = 16);
 
-  /// Brings the cells up to date. Returns how many of the spheres moved (all of them after one came, went or
-  /// changed its place in the list).
+  /// Where the spheres are now. Returns how many of them moved (all of them after one came, went or changed
+  /// its place in the list). Cells are not written yet.
+  std::size_t place(const std::vector<LatticeSphere>& spheres);
+
+  /// Whether any cell waits to be written.
+  bool is_stale() const { return stale_; }
+  /// Brings the cells of one block up to date, if they are not. `finish_writing` follows when all blocks have
+  /// been.
+  void write_rows(const lbm::RowBlock& block);
+  void finish_writing();
+  /// Brings all cells up to date.
+  void write();
+  /// `place` and `write`.
   std::size_t update(const std::vector<LatticeSphere>& spheres);
 
-  /// Sum over the cells of sphere n of the last update; zero for one that reaches no cell of this rank.
-  LatticeLoad load_of(std::size_t n, double relaxation_time) const;
-
-  /// Sum of the fractions of sphere n in this rank's cells: its volume there, in cells.
-  double volume_of(std::size_t n) const;
+  /// The sums over the cells of each sphere: `sum_rows` adds one block's, in between the others; `sum` does
+  /// everything for all cells of the rank.
+  void begin_loads() { loads_.assign(mapped_.size(), {}); }
+  void sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange);
+  void finish_loads(double relaxation_time);
+  void sum(double relaxation_time);
+  /// By sphere, as in the last `place`; zero for one that reaches no cell of this rank.
+  const std::vector<LatticeLoad>& loads() const { return loads_; }
 
   /// Solids' volume times their velocity in a cell of this rank (numbered over the whole box), cells per
   /// step; fractions that add up to more than one shrink in proportion.
@@ -38,27 +57,34 @@ class SolidMapping {
   double overlap() const;
 
   std::size_t spheres() const { return mapped_.size(); }
-  /// The order in which loads are read fastest: along z.
-  const std::vector<std::size_t>& order() const { return order_; }
   std::size_t bytes() const;
 
  private:
-  void place(const LatticeSphere& sphere, MappedSphere& mapped) const;
+  void set_place(const LatticeSphere& sphere, MappedSphere& mapped) const;
   bool same_list(const std::vector<LatticeSphere>& spheres) const;
   bool moved(const LatticeSphere& now, const LatticeSphere& then) const;
-  void mark(const MappedSphere& mapped, std::vector<char>& planes) const;
-  void give_entries();
-  void sort_along_z();
-  void write_planes(const std::vector<char>& dirty);
-  void clear_plane(int z) const;
+  void mark(const MappedSphere& mapped);
+  void list_slices();
+  std::size_t number_of(const lbm::RowBlock& block) const;
+  SliceList slices_in(const lbm::RowBlock& block) const;
+  void clear_rows(const lbm::RowBlock& block) const;
+  template <class Visit>
+  void for_each_block(const Visit& visit) const;
 
   SolidSettings settings_;
   lbm::InstructionSet instruction_set_;
   lbm::PartialSolidArrays arrays_;
   lbm::CellBox box_;
+  int rows_per_block_, blocks_per_plane_;
+  std::vector<LatticeSphere> placed_;  ///< as they were when they were placed last
   std::vector<MappedSphere> mapped_;
-  std::vector<std::size_t> order_;
-  std::vector<float> entries_;
+  std::vector<char> dirty_;  ///< planes whose cells wait to be written
+  bool stale_ = false;
+  std::vector<int> first_slice_;  ///< of each block, in `slices_`; one more at the end
+  std::vector<int> slices_;       ///< the spheres that may reach it
+  std::vector<float> entries_;    ///< strengths of the slices of one block, which is
+  std::ptrdiff_t entries_block_ = -1;
+  std::vector<LatticeLoad> loads_;
 };
 
 }  // namespace suffuse::coupling

@@ -12,6 +12,7 @@
 #include "suffuse/lbm/decomposition.h"
 #include "suffuse/lbm/instruction_set.h"
 #include "suffuse/lbm/partial_solids.h"
+#include "suffuse/lbm/row_visitor.h"
 
 namespace suffuse::lbm {
 
@@ -83,6 +84,9 @@ class Fluid {
 
   /// Advances by one step. Collective.
   void step();
+  /// The same, bit for bit, with somebody looking on at partly covered cells.
+  void step(RowVisitor& visitor);
+  int rows_per_block() const;
   void run(long steps) {
     for (long n = 0; n < steps; ++n) step();
   }

@@ -52,6 +52,10 @@ struct HeldTerms {
 };
 HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time);
 
+/// Momentum that the fluid handed to the solids of each cell, one array for each component, in the storage
+/// type of the fluid.
+using ExchangeArrays = std::variant<std::array<const double*, 3>, std::array<const float*, 3>>;
+
 /// The arrays of one rank that solids are written to and the exchange is read from. All pointers are to inner
 /// cell (0,0,0) of the sub-box; cell (x,y,z) lies at x + row_pitch*y + plane_pitch*z. At least eight values
 /// past the last cell of a row may be read, and written with what they hold.
@@ -63,9 +67,8 @@ struct PartialSolidArrays {
   std::array<float*, 3> momentum{};
   std::ptrdiff_t row_pitch = 0, plane_pitch = 0;
 
-  /// Momentum that the fluid handed to the solids of each cell in the last step: defined where the fraction
-  /// is not zero. In the storage type of the fluid.
-  std::variant<std::array<const double*, 3>, std::array<const float*, 3>> exchange;
+  /// Of the last step: defined where the fraction is not zero.
+  ExchangeArrays exchange;
 };
 
 }  // namespace suffuse::lbm

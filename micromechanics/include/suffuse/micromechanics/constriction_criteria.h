@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "suffuse/micromechanics/constriction_size.h"
@@ -23,6 +24,13 @@ struct ConstrictionLimits {
   double dense_split = 0.20;      ///< and here in the dense state (thesis chapter 4)
   double dense_from = 0.65;       ///< relative density from which a state is dense (the thesis's is 0.95)
 };
+
+/// A limit that can be set by name; none of the names is one of StabilityLimits.
+struct ConstrictionLimitName {
+  std::string_view name;
+  double ConstrictionLimits::*member;
+};
+const std::vector<ConstrictionLimitName>& constriction_limit_names();
 
 /// Where a grading is cut into filter and base, and by which rule.
 struct GradingSplit {

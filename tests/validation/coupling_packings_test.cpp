@@ -1,0 +1,84 @@
+// Drag on random packings that the automatic coefficient was not fitted to, against references that the
+// solver's partly covered cells had no part in, or only at three times the resolution
+// (tests/data/packing_drags.csv, docs/decisions/solid-operator.md).
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "drag_of_packings.h"
+#include "link_wise_stokes.h"
+
+using namespace suffuse;
+using namespace suffuse::coupling;
+
+namespace {
+
+double reference_drag(const std::string& packing) {
+  std::ifstream file(std::string(SUFFUSE_TEST_DATA) + "/packing_drags.csv");
+  for (std::string line; std::getline(file, line);) {
+    std::stringstream row(line);
+    std::string name, drag;
+    std::getline(row, name, ',');
+    std::getline(row, drag, ',');
+    if (name == packing) return std::stod(drag);
+  }
+  throw std::runtime_error("no " + packing + " in packing_drags.csv");
+}
+
+/// Per cent, the mean over two places of the packing on the lattice.
+double error_percent(const std::string& name, double diameter, DragRun run) {
+  const Packing packing = make_packing(name);
+  double sum = 0;
+  for (const double offset : {0.3, 0.8}) {
+    run.offset = offset;
+    sum += drag_of(packing, diameter, run).drag / 2;
+  }
+  return 100 * (sum / reference_drag(name) - 1);
+}
+
+}  // namespace
+
+// Limits: what these packings show, and a point. The aim is 3 % at five cells and 2 % at eight; it is missed
+// in random:0.58 and 0.4 (docs/decisions/solid-operator.md).
+TEST_CASE("Packings not fitted: drag within 8 % at five cells a Sauter diameter, 3.5 % at eight") {
+  const std::string packing =
+      GENERATE("random:0.4:16:11", "random:0.58:16:11", "spread:0.45:16:11:0.25", "spread:0.58:16:11:0.4");
+  INFO(packing);
+  CHECK(std::abs(error_percent(packing, 5, {})) < 8);
+  CHECK(std::abs(error_percent(packing, 8, {})) < 3.5);
+}
+
+TEST_CASE(
+    "The worst packing known, an open channel through a dense box, is within what a plan says at most") {
+  const double at_five = std::abs(error_percent("random:0.5:16:11", 5, {}));
+  const double at_eight = std::abs(error_percent("random:0.5:16:11", 8, {}));
+  CHECK(at_five < 100 * largest_permeability_error(5) + 1);
+  CHECK(at_eight < 100 * largest_permeability_error(8) + 1);
+  CHECK(at_five > 100 * expected_permeability_error(5));
+}
+
+TEST_CASE("The expected error of a permeability falls with resolution down to the references' own") {
+  for (double d = 1; d < 60; d *= 1.2) {
+    CHECK(expected_permeability_error(1.2 * d) <= expected_permeability_error(d));
+    CHECK(largest_permeability_error(d) > expected_permeability_error(d));
+    CHECK(expected_permeability_error(d) > 0.005);
+  }
+}
+
+TEST_CASE("The law of sc3 on packings not fitted, at five cells") {
+  DragRun run;
+  run.solid_operator = lbm::SolidOperator::sc3;
+  run.relaxation_time = 0.8;
+  CHECK(std::abs(error_percent("random:0.4:16:11", 5, run)) < 9);
+  CHECK(std::abs(error_percent("spread:0.58:16:11:0.4", 5, run)) < 9);
+}
+
+TEST_CASE("A second method gives Zick & Homsy's drag: links that end on the spheres") {
+  // c = 0.216 simple cubic, K = 7.442: 0.25 % off at 16 cells; half-way links 3 %, since spheres are then
+  // steps of cells.
+  const Packing array = array_packing(0.216, false);
+  CHECK(link_wise_drag(array, 16, LinkRule::interpolated, 0.3).drag == Approx(7.442).epsilon(0.005));
+  CHECK(link_wise_drag(array, 16, LinkRule::halfway, 0.3).drag == Approx(7.442).epsilon(0.05));
+}
