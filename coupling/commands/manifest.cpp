@@ -51,6 +51,9 @@ int driven_axis(const lbm::FaceConditions& faces) {
   return -1;
 }
 
+/// Fewer cells a diameter than the coefficient was calibrated for.
+constexpr double kLeastCells = 3.5;
+
 /// Thinner than this there is no bed.
 constexpr double kBedPacking = 0.3;
 
@@ -89,6 +92,13 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                               simulation.settings().average_force ? ", mean force of two steps" : ""));
   for (const EffectChoice& effect : effects)
     lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
+  const double smallest = 2 * grains.smallest_radius / units.spacing();
+  if (grains.grains > 0 && smallest < kLeastCells)
+    lines.push_back(
+        fmt::format("note: the smallest grains have {:.2g} cells per diameter; below {:g} their drag is "
+                    "rough (docs/decisions/solid-operator.md), and a spacing "
+                    "of {:.2g} m resolves them",
+                    smallest, kLeastCells, 2 * grains.smallest_radius / kLeastCells));
   for (const std::string& warning : units.warnings()) lines.push_back("note: " + warning);
   return lines;
 }

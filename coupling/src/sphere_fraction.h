@@ -77,6 +77,10 @@ inline constexpr float kHalfDiagonal = 0.8660255f;
 /// them.
 inline constexpr float kLeastRadius = 2.f;
 
+/// But into no more than this cubed: of smaller spheres, below a fifth of a cell across, little or nothing is
+/// left, and their volume would not be felt either.
+inline constexpr int kMostParts = 20;
+
 /// What is the same for all cells of a sphere.
 struct Sphere {
   float radius;
@@ -129,7 +133,8 @@ template <FractionMethod kMethod>
     if (sphere.radius >= kLeastRadius) {
       fraction = plane_cut(dx, Floats{} + dy, Floats{} + dz, sphere.radius);
     } else {
-      const int n = static_cast<int>(kLeastRadius / sphere.radius) + 1;
+      const float wanted = kLeastRadius / sphere.radius + 1.f;
+      const int n = wanted < static_cast<float>(kMostParts) ? static_cast<int>(wanted) : kMostParts;
       const float scale = static_cast<float>(n);
       for (int k = 0; k < n; ++k)
         for (int j = 0; j < n; ++j)
