@@ -81,11 +81,14 @@ def check_restart(program):
     same to the last digit."""
     grid = f"{program.ranks} 1 1"
     water = WATER + "lbm boundary zlo pressure 1 zhi pressure 0\n"
-    last = DUMP.format(every=1000000) + "lbm run 4e-3\n"
+    last = DUMP.format(every=100) + "lbm run 4e-3\n"
     with scratch() as folder:
         path = pathlib.Path(folder)
-        program.must_run(wet_box(processors=grid) + water + "lbm run 4e-3\nlbm restart write half.h5\n" + last, folder)
+        Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
+        program.must_run(wet_box(processors=grid, restart="start") + water + "lbm run 4e-3\nlbm restart write half.h5\n" + last,
+                         folder)
         whole = positions(path / "grains.dump")
+        expect(len(whole) == 40, f"{len(whole)} grains")
         program.must_run(wet_box(processors=grid, restart="half.h5.grains") + water + "lbm restart read half.h5\n" + last,
                          folder)
         second = positions(path / "grains.dump")
