@@ -8,6 +8,8 @@
 
 #include "comm.h"
 #include "lammps.h"
+#include "manifest.h"
+#include "styles/style_support.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "timer.h"
@@ -103,10 +105,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
       fmt::format(", {} DEM steps each; {:.3g} GB for the fluid\n", settings.substeps, costs.bytes * 1e-9);
   text += "lbm plan: " + units.summary() + "\n";
   if (grains.grains > 0)
-    text +=
-        fmt::format("lbm plan: {} grains, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}\n",
-                    grains.grains, 2 * grains.smallest_radius / units.spacing(),
-                    2 * grains.largest_radius / units.spacing(), grains.sauter_diameter / units.spacing());
+    text += fmt::format("lbm plan: {} grains, {}\n", grains.grains, sizes_text(grains, units.spacing()));
   const SolidSettings& solids = settings.solids;
   const bool calibrated = solids.automatic_coefficient &&
                           solids.cells.solid_operator == lbm::SolidOperator::force &&
@@ -121,8 +120,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   row("forces on grains", costs.exchange);
   row(past.grain_steps > 0 ? "grains, as last run" : "grains, usual core", costs.grains);
   row("together", a_step);
-  for (std::FILE* to : {lmp->screen, lmp->logfile})
-    if (to != nullptr) fmt::print(to, "{}", text);
+  tell(lmp, text);
 }
 
 }  // namespace suffuse::coupling

@@ -37,13 +37,8 @@ LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort
       output_(output),
       speaks_(lmp->comm->me == 0) {}
 
-void LbmRun::say(const std::string& text) const {
-  if (!speaks_) return;
-  for (std::FILE* to : {lmp_->screen, lmp_->logfile}) {
-    if (to == nullptr) continue;
-    fmt::print(to, "{}\n", text);
-    std::fflush(to);
-  }
+void LbmRun::say(const std::string& line) const {
+  tell(lmp_, line + "\n");
 }
 
 void LbmRun::set_values() {

@@ -9,6 +9,12 @@
 
 namespace suffuse::coupling {
 
+std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing) {
+  return fmt::format("{:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}",
+                     2 * grains.smallest_radius / spacing, 2 * grains.largest_radius / spacing,
+                     grains.sauter_diameter / spacing);
+}
+
 namespace {
 
 std::string faces_text(const lbm::FaceConditions& faces) {
@@ -38,9 +44,7 @@ std::string solids_text(const SolidSettings& solids) {
 
 std::string grains_text(const LiggghtsPort::Summary& grains, double spacing) {
   if (grains.grains == 0) return "none: the fluid flows alone";
-  return fmt::format("{}, {:.3g} to {:.3g} cells per diameter, Sauter mean {:.3g}", grains.grains,
-                     2 * grains.smallest_radius / spacing, 2 * grains.largest_radius / spacing,
-                     grains.sauter_diameter / spacing);
+  return fmt::format("{}, {}", grains.grains, sizes_text(grains, spacing));
 }
 
 /// Axis across which two different pressures, or a pressure and a velocity, are given; none: -1.

@@ -15,6 +15,9 @@ namespace suffuse::coupling {
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
                                   const std::vector<EffectChoice>& effects);
 
+/// "3.81 to 6.83 cells per diameter, Sauter mean 4.97". Needs at least one grain.
+std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing);
+
 /// Where the time went, as a table: each part in seconds, milliseconds a step and share, the slowest rank's.
 /// `steps` of the fluid, `grain_steps` steps of single grains, `wall` seconds in all. Collective.
 std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall);

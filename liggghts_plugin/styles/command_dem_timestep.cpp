@@ -86,8 +86,6 @@ void CommandDemTimestep::command(int narg, char** arg) {
     throw_user_error({"dem_timestep", "time step", fmt::format("{:.4g} s", update->dt),
                       fmt::format("be below {:.4g} s (thesis eq 3.3)", limit),
                       "dem_timestep rayleigh 0.1 sets a safe one"});
-  if (comm->me != 0) return;
   const std::string text = describe(smallest, pressure, update->dt, 2 * grains.largest_radius);
-  if (screen != nullptr) fmt::print(screen, "{}", text);
-  if (logfile != nullptr) fmt::print(logfile, "{}", text);
+  suffuse::tell(lmp, text);
 }

@@ -50,7 +50,6 @@ void CommandReport::command(int narg, char** arg) {
   if (comm->me != 0) return;
   const std::string table = fmt::format("\n{} against {}\n{}\n", case_name, file,
                                         suffuse::comparison_table(measured, expected, case_name));
-  if (screen != nullptr) fmt::print(screen, "{}", table);
-  if (logfile != nullptr) fmt::print(logfile, "{}", table);
+  suffuse::tell(lmp, table);
   if (!results.empty()) write_results(results, case_name, measured);
 }

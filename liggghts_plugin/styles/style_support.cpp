@@ -1,14 +1,17 @@
 #include "style_support.h"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <numbers>
 
 #include "atom.h"
+#include "comm.h"
 #include "domain.h"
 #include "fix_property_global.h"
 #include "force.h"
@@ -76,6 +79,15 @@ std::int64_t ArgumentReader::positive_integer(std::string_view what) {
 
 void ArgumentReader::unknown(std::string_view given, std::string_view known) const {
   throw_user_error({who_, "keyword", std::string(given), "be one of: " + std::string(known), ""});
+}
+
+void tell(LAMMPS* lmp, std::string_view text) {
+  if (lmp->comm->me != 0) return;
+  for (std::FILE* to : {lmp->screen, lmp->logfile}) {
+    if (to == nullptr) continue;
+    fmt::print(to, "{}", text);
+    std::fflush(to);
+  }
 }
 
 void require_grains_in_group(LAMMPS* lmp, std::string_view who, int igroup) {

@@ -49,6 +49,9 @@ class ArgumentReader {
   int next_;
 };
 
+/// Text for the person who runs the script, as it stands: on the screen and in the log, once for all ranks.
+void tell(LAMMPS_NS::LAMMPS* lmp, std::string_view text);
+
 /// Throws unless the group has grains on some rank. Collective.
 void require_grains_in_group(LAMMPS_NS::LAMMPS* lmp, std::string_view who, int igroup);
 

@@ -8,7 +8,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import expect, loose_sample, program_from_command_line, scratch  # noqa: E402
+from scenes import expect, loose_sample, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
 
 SAMPLE = loose_sample(grains=30)
 OPEN_SAMPLE = loose_sample(grains=30, boundary="f f f")
@@ -51,19 +51,9 @@ CASES = [
 
 def main():
     program = program_from_command_line(__doc__)
-    failures = []
     with scratch() as folder:
         (pathlib.Path(folder) / "wrong.csv").write_text("name,value\n")
-        for script, words in CASES:
-            last = script.strip().splitlines()[-1]
-            code, screen = program.run(script, folder, timeout=60)
-            lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
-            if code != 1:
-                failures.append(f"`{last}` ended with code {code}\n{screen[-500:]}")
-            elif len(lines) != 1:
-                failures.append(f"`{last}` gave {len(lines)} error lines\n{screen[-500:]}")
-            else:
-                failures += [f"`{last}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+        failures = mistakes_not_named(program, CASES, folder)
         code, screen = program.run_file(folder, folder, [], "log.folder", 60)
         expect(code == 1 and "readable script" in screen, f"a folder as script ended with code {code}")
         code, screen = program.run("", folder, name="empty")

@@ -8,7 +8,7 @@ import sys
 import pathlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import expect, program_from_command_line, scratch  # noqa: E402
+from scenes import expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 FEW = wet_box(grains=4)
@@ -99,20 +99,16 @@ CASES = [
 ]
 
 
+def culprit(script):
+    """The line that is wrong: the last one but RUN."""
+    lines = script.strip().splitlines()
+    return lines[-2] if script.endswith(RUN) else lines[-1]
+
+
 def main():
     program = program_from_command_line(__doc__)
-    failures = []
     with scratch() as folder:
-        for script, words in CASES:
-            last = script.strip().splitlines()[-1] if not script.endswith(RUN) else script.strip().splitlines()[-2]
-            code, screen = program.run(script, folder, timeout=60)
-            lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
-            if code != 1:
-                failures.append(f"`{last}` ended with code {code}\n{screen[-500:]}")
-            elif len(lines) != 1:
-                failures.append(f"`{last}` gave {len(lines)} error lines\n{screen[-500:]}")
-            else:
-                failures += [f"`{last}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+        failures = mistakes_not_named(program, CASES, folder, culprit)
     expect(not failures, "\n".join(failures))
     print(f"{program.ranks} ranks: {len(CASES)} mistakes, each named in one line")
 

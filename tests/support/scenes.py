@@ -95,6 +95,22 @@ class Program:
         return screen
 
 
+def mistakes_not_named(program, cases, folder, title=lambda script: script.strip().splitlines()[-1]):
+    """Runs scripts that a person got wrong: each must end with code 1 and one error line that has the case's words.
+    Returns what is amiss, a text each; `title` names a script in it."""
+    amiss = []
+    for script, words in cases:
+        code, screen = program.run(script, folder, timeout=60)
+        lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
+        if code != 1:
+            amiss.append(f"`{title(script)}` ended with code {code}\n{screen[-500:]}")
+        elif len(lines) != 1:
+            amiss.append(f"`{title(script)}` gave {len(lines)} error lines\n{screen[-500:]}")
+        else:
+            amiss += [f"`{title(script)}`: no '{word}' in: {lines[0]}" for word in words if word not in lines[0]]
+    return amiss
+
+
 def program_from_command_line(description):
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--suffuse", required=True)
