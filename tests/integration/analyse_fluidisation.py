@@ -5,7 +5,6 @@ Good: conductivity and critical gradients of a ramp, of held stages, under noise
 Bad: one line, exit code 1, no file left behind.
 """
 import argparse
-import csv
 import json
 import math
 import pathlib
@@ -15,32 +14,10 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 import fluidisation_series as bed  # noqa: E402
-
-PROBLEMS = []
-
-
-def expect(condition, what):
-    if not condition:
-        PROBLEMS.append(what)
-        print(f"FAILED {what}")
+from analyse_runs import PROBLEMS, Runner, expect, rows  # noqa: E402
 
 
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-class Runner:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
-
-    def __call__(self, *words):
-        return subprocess.run([self.program, "fluidisation", *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=120)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return name
-
+class FluidisationRunner(Runner):
     def results(self, *words):
         done = self(*words, "--csv", "results.csv", "--json", "results.json")
         expect(done.returncode == 0, f"{words}: {done.stderr}")
@@ -235,7 +212,7 @@ def main():
     parser.add_argument("--gradings", type=pathlib.Path, required=True)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        run = Runner(options.analyse.resolve(), pathlib.Path(folder))
+        run = FluidisationRunner(options.analyse.resolve(), pathlib.Path(folder), "fluidisation")
         good_series(run, options.gradings.resolve())
         dumped_layers(run)
         python = python_that_draws()

@@ -9,33 +9,11 @@ import csv
 import gzip
 import math
 import pathlib
-import subprocess
+import sys
 import tempfile
 
-PROBLEMS = []
-
-
-def expect(condition, what):
-    if not condition:
-        PROBLEMS.append(what)
-        print(f"FAILED {what}")
-
-
-def rows(path):
-    with open(path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-class Runner:
-    def __init__(self, program, folder):
-        self.program, self.folder = program, folder
-
-    def __call__(self, *words):
-        return subprocess.run([self.program, *map(str, words)], cwd=self.folder, capture_output=True, text=True, timeout=120)
-
-    def write(self, name, text):
-        (self.folder / name).write_text(text, encoding="utf-8")
-        return name
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from analyse_runs import PROBLEMS, Runner, expect, rows  # noqa: E402
 
 
 def criteria(run, *words):
