@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "mapping_kernels.h"
 
@@ -145,8 +146,20 @@ std::size_t SolidMapping::number_of(const lbm::RowBlock& block) const {
   return static_cast<std::size_t>(block.z * blocks_per_plane_ + block.begin_y / rows_per_block_);
 }
 
+/// Spheres by their first row, so that neighbours in a block's list share what is in the nearest cache.
+void SolidMapping::order_by_row() {
+  std::vector<int> next(static_cast<std::size_t>(box_.extent(1)) + 2, 0);
+  for (const MappedSphere& m : mapped_) ++next[static_cast<std::size_t>(m.y_begin) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  order_.resize(mapped_.size());
+  for (std::size_t n = 0; n < mapped_.size(); ++n)
+    order_[static_cast<std::size_t>(next[static_cast<std::size_t>(mapped_[n].y_begin)]++)] =
+        static_cast<int>(n);
+}
+
 /// Sorts the spheres' slices by the block that they lie in.
 void SolidMapping::list_slices() {
+  order_by_row();
   const auto blocks = static_cast<std::size_t>(blocks_per_plane_ * box_.extent(2));
   first_slice_.assign(blocks + 1, 0);
   const auto for_blocks = [&](const MappedSphere& m, const auto& visit) {
@@ -170,10 +183,9 @@ void SolidMapping::list_slices() {
   entries_.resize(std::max(entries_.size(), 8 * widest * static_cast<std::size_t>(most)));
   entries_block_ = -1;
   std::vector<int> next(first_slice_.begin(), first_slice_.end() - 1);
-  for (std::size_t n = 0; n < mapped_.size(); ++n)
-    for_blocks(mapped_[n], [&](std::size_t block) {
-      slices_[static_cast<std::size_t>(next[block]++)] = static_cast<int>(n);
-    });
+  for (const int n : order_)
+    for_blocks(mapped_[static_cast<std::size_t>(n)],
+               [&](std::size_t block) { slices_[static_cast<std::size_t>(next[block]++)] = n; });
 }
 
 SliceList SolidMapping::slices_in(const lbm::RowBlock& block) const {
@@ -305,7 +317,7 @@ double SolidMapping::overlap() const {
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
          loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
-         (slices_.capacity() + first_slice_.capacity()) * sizeof(int);
+         (slices_.capacity() + first_slice_.capacity() + order_.capacity()) * sizeof(int);
 }
 
 }  // namespace suffuse::coupling

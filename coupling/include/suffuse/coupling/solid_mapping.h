@@ -64,6 +64,7 @@ class SolidMapping {
   bool same_list(const std::vector<LatticeSphere>& spheres) const;
   bool moved(const LatticeSphere& now, const LatticeSphere& then) const;
   void mark(const MappedSphere& mapped);
+  void order_by_row();
   void list_slices();
   std::size_t number_of(const lbm::RowBlock& block) const;
   SliceList slices_in(const lbm::RowBlock& block) const;
@@ -80,6 +81,7 @@ class SolidMapping {
   std::vector<MappedSphere> mapped_;
   std::vector<char> dirty_;  ///< planes whose cells wait to be written
   bool stale_ = false;
+  std::vector<int> order_;        ///< of `mapped_` by y_begin
   std::vector<int> first_slice_;  ///< of each block, in `slices_`; one more at the end
   std::vector<int> slices_;       ///< the spheres that may reach it
   std::vector<float> entries_;    ///< strengths of the slices of one block, which is
