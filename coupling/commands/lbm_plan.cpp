@@ -71,7 +71,7 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
     costs.mapping = slowest(simulation.times().mapping, communicator) / steps;
     costs.exchange = slowest(simulation.times().exchange, communicator) / steps;
   }
-  costs.bytes = static_cast<double>(simulation.fluid().bytes() + simulation.mapping().bytes());
+  costs.bytes = static_cast<double>(simulation.bytes());
   MPI_Allreduce(MPI_IN_PLACE, &costs.bytes, 1, MPI_DOUBLE, MPI_SUM, communicator);
   return costs;
 }

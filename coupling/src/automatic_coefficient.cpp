@@ -63,7 +63,7 @@ PoreSurvey::PoreSurvey(lbm::InstructionSet instruction_set, const lbm::PartialSo
                        const lbm::CellBox& local_box)
     : instruction_set_(instruction_set), arrays_(arrays), box_(local_box) {}
 
-std::vector<PoreSums> PoreSurvey::sums(const std::vector<LatticeSphere>& spheres) const {
+std::vector<PoreSums> PoreSurvey::sums(const std::vector<LatticeSphere>& spheres) {
   PoreCells cells{};
   for (int a = 0; a < 3; ++a) {
     cells.lo[a] = box_.lo[static_cast<std::size_t>(a)];
@@ -76,9 +76,10 @@ std::vector<PoreSums> PoreSurvey::sums(const std::vector<LatticeSphere>& spheres
   cells.near_row = cells.cells[0] + spare;
   cells.near_plane = cells.near_row * cells.cells[1];
   const auto count = static_cast<std::size_t>(cells.near_plane * cells.cells[2]);
-  std::vector<float> nearness(count, 0), surface(count, 0);
-  cells.nearness = nearness.data();
-  cells.surface = surface.data();
+  nearness_.assign(count, 0);
+  surface_.assign(count, 0);
+  cells.nearness = nearness_.data();
+  cells.surface = surface_.data();
 
   auto add = portable::add_nearness;
   auto sum = portable::sum_pores;

@@ -24,21 +24,25 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   const auto along = static_cast<std::size_t>(axis);
   std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]), Sums{});
   double totals[3] = {0, 0, 0};  // mass, twice the kinetic energy, deviation from rest
-  lbm::for_each_cell(d.local_box(), [&](int x, int y, int z) {
-    const lbm::Index3 cell{x, y, z};
-    const lbm::FluidPoint point = fluid.at(cell);
-    const double open = 1 - fluid.solid_fraction(cell);
-    const Vec3 solid = simulation.mapping().solid_flux(cell);
-    Sums& plane = sums[static_cast<std::size_t>(cell[along])];
-    for (int a = 0; a < 3; ++a) {
-      plane.flux[a] += point.velocity[a];
-      plane.solid_flux[a] += solid[a];
+  std::vector<lbm::FluidPoint> row;
+  lbm::for_each_row(d.local_box(), [&](int y, int z) {
+    fluid.read_row(y, z, row);
+    lbm::Index3 cell{d.local_box().lo[0], y, z};
+    for (const lbm::FluidPoint& point : row) {
+      const double open = 1 - fluid.solid_fraction(cell);
+      const Vec3 solid = simulation.mapping().solid_flux(cell);
+      Sums& plane = sums[static_cast<std::size_t>(cell[along])];
+      for (int a = 0; a < 3; ++a) {
+        plane.flux[a] += point.velocity[a];
+        plane.solid_flux[a] += solid[a];
+      }
+      plane.open += open;
+      plane.pressure += open * (point.density - 1);
+      totals[0] += open * point.density;
+      totals[1] += open * point.density * point.velocity.squaredNorm();
+      totals[2] += point.density - 1;
+      ++cell[0];
     }
-    plane.open += open;
-    plane.pressure += open * (point.density - 1);
-    totals[0] += open * point.density;
-    totals[1] += open * point.density * point.velocity.squaredNorm();
-    totals[2] += point.density - 1;
   });
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), kSums * static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 d.communicator());

@@ -53,17 +53,23 @@ std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units
   std::vector<float> values;
   values.reserve(fluid.decomposition().local_box().volume() * (field == Field::velocity ? 3 : 1));
   const auto add = [&](double value) { values.push_back(static_cast<float>(value)); };
-  for_each_cell(fluid.decomposition().local_box(), [&](int x, int y, int z) {
-    const Index3 cell{x, y, z};
-    if (field == Field::solid_fraction) {
+  const CellBox& box = fluid.decomposition().local_box();
+  if (field == Field::solid_fraction) {
+    for_each_cell(box, [&](int x, int y, int z) {
+      const Index3 cell{x, y, z};
       add(settings.solid_fraction ? settings.solid_fraction(cell) : fluid.is_solid(cell) ? 1. : 0.);
-      return;
+    });
+    return values;
+  }
+  std::vector<FluidPoint> row;
+  for_each_row(box, [&](int y, int z) {
+    fluid.read_row(y, z, row);
+    for (const FluidPoint& point : row) {
+      if (field == Field::velocity)
+        for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
+      if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
+      if (field == Field::density) add(units.density_to_si(point.density));
     }
-    const FluidPoint point = fluid.at(cell);
-    if (field == Field::velocity)
-      for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
-    if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
-    if (field == Field::density) add(units.density_to_si(point.density));
   });
   return values;
 }

@@ -137,6 +137,11 @@ FluidPoint Fluid::at(const Index3& cell) const {
   return core_->at(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
 }
 
+void Fluid::read_row(int y, int z, std::vector<FluidPoint>& points) const {
+  const Index3& lo = core_->decomposition.local_box().lo;
+  core_->read_row(y - lo[1], z - lo[2], points);
+}
+
 double Fluid::population(int direction, const Index3& cell) const {
   const Index3& lo = core_->decomposition.local_box().lo;
   return core_->population(direction, cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
@@ -180,13 +185,17 @@ Vec3 Fluid::momentum() const {
 
 FluidExtremes Fluid::extremes() const {
   double speed_squared = 0, high = -1e300, minus_low = -1e300, broken = 0;
-  for_each_cell(local_cells(*core_), [&](int x, int y, int z) {
-    if (core_->is_solid(x, y, z)) return;
-    const FluidPoint point = core_->at(x, y, z);
-    if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
-    speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
-    high = std::max(high, point.density);
-    minus_low = std::max(minus_low, -point.density);
+  std::vector<FluidPoint> row;
+  for_each_row(local_cells(*core_), [&](int y, int z) {
+    core_->read_row(y, z, row);
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      if (core_->is_solid(static_cast<int>(x), y, z)) continue;
+      const FluidPoint& point = row[x];
+      if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
+      speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
+      high = std::max(high, point.density);
+      minus_low = std::max(minus_low, -point.density);
+    }
   });
   const double mine[4] = {speed_squared, high, minus_low, broken};
   double all[4];

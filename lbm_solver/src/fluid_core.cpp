@@ -28,13 +28,28 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
     deviation += g;
     momentum += g * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
   }
+  return point_of(deviation, momentum, partial_solid(x, y, z));
+}
+
+FluidPoint FluidCoreBase::point_of(double deviation, const Vec3& momentum,
+                                   const PartialSolidCell& solids) const {
   const double density = settings.collision.incompressible ? 1 : 1 + deviation;
-  const PartialSolidCell solids = partial_solid(x, y, z);
   // A grain may cover so little of a cell that its strength is rounded to nothing.
   if (!(solids.strength > 0)) return {1 + deviation, momentum / density};
   // What the cell's fluid and solids move at together.
   const double weight = mean_share(*partial_solids, solids, settings.collision.relaxation_time);
   return {1 + deviation, (1 - weight) * momentum / density + weight * solids.momentum / solids.strength};
+}
+
+void FluidCoreBase::read_row(int y, int z, std::vector<FluidPoint>& points) const {
+  add_up_row(y, z, row_);
+  points.resize(row_.deviation.size());
+  for (std::size_t x = 0; x < points.size(); ++x) {
+    const int cell = static_cast<int>(x);
+    const Vec3 momentum(row_.momentum[0][x], row_.momentum[1][x], row_.momentum[2][x]);
+    points[x] = is_solid(cell, y, z) ? FluidPoint{}
+                                     : point_of(row_.deviation[x], momentum, partial_solid(cell, y, z));
+  }
 }
 
 template <class T>
@@ -213,6 +228,22 @@ template <class T>
 double FluidCore<T>::population(int direction, int x, int y, int z) const {
   return static_cast<double>(
       populations_.slot(odd ? opposite(direction) : direction)[place(direction, x, y, z)]);
+}
+
+template <class T>
+void FluidCore<T>::add_up_row(int y, int z, RowMoments& row) const {
+  const auto cells = static_cast<std::size_t>(populations_.cells()[0]);
+  row.deviation.assign(cells, 0);
+  for (int a = 0; a < 3; ++a) row.momentum[a].assign(cells, 0.5 * force[a]);
+  for (int i = 0; i < kDirections; ++i) {
+    const T* from = populations_.slot(odd ? opposite(i) : i) + place(i, 0, y, z);
+    for (std::size_t x = 0; x < cells; ++x) row.deviation[x] += static_cast<double>(from[x]);
+    for (int a = 0; a < 3; ++a) {
+      if (kVelocity[i][a] == 0) continue;
+      for (std::size_t x = 0; x < cells; ++x)
+        row.momentum[a][x] += kVelocity[i][a] * static_cast<double>(from[x]);
+    }
+  }
 }
 
 template <class T>

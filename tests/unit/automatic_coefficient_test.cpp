@@ -134,7 +134,7 @@ TEST_CASE("Coefficients do not depend on the number of ranks") {
   lbm::Fluid fluid(settings.fluid, lbm::Decomposition::balanced(MPI_COMM_SELF, bed.cells));
   const lbm::PartialSolidArrays arrays = fluid.use_partial_solids(settings.solids.cells);
   SolidMapping mapping(settings.solids, fluid.instruction_set(), arrays, fluid.decomposition().local_box());
-  const PoreSurvey survey(fluid.instruction_set(), arrays, fluid.decomposition().local_box());
+  PoreSurvey survey(fluid.instruction_set(), arrays, fluid.decomposition().local_box());
   PrescribedGrains grains(grains_at(bed.centres, bed.request.radii), bed.request.box, {true, true, true}, 1.);
   const GrainArrays all = grains.grains();
   std::vector<LatticeSphere> spheres(static_cast<std::size_t>(all.total));

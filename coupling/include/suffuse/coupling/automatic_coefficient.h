@@ -62,12 +62,16 @@ class PoreSurvey {
              const lbm::CellBox& local_box);
 
   /// Of each sphere, copies included, in this rank's cells. The fractions in the arrays must be up to date.
-  std::vector<PoreSums> sums(const std::vector<LatticeSphere>& spheres) const;
+  std::vector<PoreSums> sums(const std::vector<LatticeSphere>& spheres);
+
+  /// Memory that is held from the first survey on.
+  std::size_t bytes() const { return (nearness_.capacity() + surface_.capacity()) * sizeof(float); }
 
  private:
   lbm::InstructionSet instruction_set_;
   lbm::PartialSolidArrays arrays_;
   lbm::CellBox box_;
+  std::vector<float> nearness_, surface_;
 };
 
 }  // namespace suffuse::coupling

@@ -67,6 +67,8 @@ class CoupledSimulation {
 
   /// k of sphere n (copies included) as the last step mapped it.
   double coefficient_of(std::size_t n) const { return spheres_[n].coefficient; }
+  /// Memory that this rank holds for fluid and solids.
+  std::size_t bytes() const { return fluid_.bytes() + mapping_.bytes() + pores_.bytes(); }
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 

@@ -18,7 +18,7 @@ struct SolidSettings {
   /// moved by `survey_distance` (cells) since.
   bool automatic_coefficient = true;
   std::optional<CoefficientLaw> law;  ///< else coefficient_law of the operator
-  int survey_every = 20;
+  int survey_every = 50;
   double survey_distance = 0.25;
   FractionMethod fraction = FractionMethod::exact;
   int subcells = 5;              ///< per edge, for FractionMethod::subcells

@@ -99,6 +99,8 @@ class Fluid {
   /// Density and velocity of a cell of this rank; a solid cell is at rest at density one, a partly covered
   /// one moves at (1-B) u + B us.
   FluidPoint at(const Index3& cell) const;
+  /// The same of all of this rank's cells with the indices y and z, along x: for whoever reads many.
+  void read_row(int y, int z, std::vector<FluidPoint>& points) const;
 
   /// The population that a cell of this rank is about to collide, less its weight.
   double population(int direction, const Index3& cell) const;
