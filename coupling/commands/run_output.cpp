@@ -44,7 +44,7 @@ std::string grains_file(const std::string& file) {
 }  // namespace
 
 /// Both files are written beside the old ones, which they replace when they are whole.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation, const std::string& file) {
   const std::string fresh = file + ".new";
   require_writable("lbm restart write", fresh, lmp->world);
   lbm::save_state(simulation.fluid(), fresh);
@@ -58,6 +58,7 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
     std::filesystem::rename(fresh, file);
   }
   MPI_Barrier(lmp->world);
+  simulation.survey_again();
 }
 
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {

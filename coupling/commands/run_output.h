@@ -46,7 +46,7 @@ class RunOutput {
 };
 
 /// Saves the fluid to `file` and LIGGGHTS's own restart file beside it, `file`.grains. Collective.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file);
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation, const std::string& file);
 
 /// A UserError if the grains are not those of the step in which `file` was saved. Collective.
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file);

@@ -33,8 +33,7 @@ static_assert(FixHydrodynamicForce::kHistoryValues == kHistoryLength &&
               FixHydrodynamicForce::kAcceleration == history::acceleration &&
               FixHydrodynamicForce::kAngularAcceleration == history::angular_acceleration &&
               FixHydrodynamicForce::kVirtualMass == history::virtual_mass &&
-              FixHydrodynamicForce::kVirtualMoment == history::virtual_moment &&
-              FixHydrodynamicForce::kCoefficient == history::coefficient);
+              FixHydrodynamicForce::kVirtualMoment == history::virtual_moment);
 
 namespace {
 
@@ -80,7 +79,6 @@ GrainArrays LiggghtsPort::grains() {
     arrays.radius = atom->radius;
     arrays.mass = atom->rmass;
     arrays.id = atom->tag;
-    arrays.coefficient = fix_->history() + history::coefficient;
     return arrays;
   }
   local_.clear();
@@ -95,7 +93,6 @@ GrainArrays LiggghtsPort::grains() {
   radius_.clear();
   mass_.clear();
   id_.clear();
-  coefficient_.clear();
   for (const int i : local_) {
     position_.insert(position_.end(), atom->x[i], atom->x[i] + 3);
     velocity_.insert(velocity_.end(), atom->v[i], atom->v[i] + 3);
@@ -103,7 +100,6 @@ GrainArrays LiggghtsPort::grains() {
     radius_.push_back(atom->radius[i]);
     mass_.push_back(atom->rmass[i]);
     id_.push_back(atom->tag[i]);
-    coefficient_.push_back(fix_->history()[kHistoryLength * i + history::coefficient]);
   }
   arrays.position = position_.data();
   arrays.velocity = velocity_.data();
@@ -111,8 +107,6 @@ GrainArrays LiggghtsPort::grains() {
   arrays.radius = radius_.data();
   arrays.mass = mass_.data();
   arrays.id = id_.data();
-  arrays.coefficient = coefficient_.data();
-  arrays.coefficient_stride = 1;
   return arrays;
 }
 

@@ -106,7 +106,7 @@ class LiggghtsPort final : public ParticlePort {
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
   std::vector<int> id_;
 };
 

@@ -62,10 +62,6 @@ Vec3 vector_at(const double* values, int n) {
   return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
 }
 
-Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<>> coefficients(const GrainArrays& grains) {
-  return {grains.coefficient, grains.total, Eigen::InnerStride<>(grains.coefficient_stride)};
-}
-
 /// Maps the spheres to the rows that the fluid is about to sweep, and adds up what they received after it.
 class MapAndSum final : public lbm::RowVisitor {
  public:
@@ -129,7 +125,7 @@ bool SeenGrains::same(const GrainArrays& grains) const {
   };
   return equal(grains.position, positions_, 3) && equal(grains.velocity, velocities_, 3) &&
          equal(grains.angular_velocity, spins_, 3) && equal(grains.radius, radii_, 1) &&
-         equal(grains.id, ids_, 1) && coefficients(grains) == coefficients_;
+         equal(grains.id, ids_, 1);
 }
 
 void SeenGrains::keep(const GrainArrays& grains) {
@@ -138,7 +134,6 @@ void SeenGrains::keep(const GrainArrays& grains) {
   spins_.assign(grains.angular_velocity, grains.angular_velocity + 3 * grains.total);
   radii_.assign(grains.radius, grains.radius + grains.total);
   ids_.assign(grains.id, grains.id + grains.total);
-  coefficients_ = coefficients(grains);
 }
 
 void CoupledSimulation::place_spheres() {
@@ -149,46 +144,35 @@ void CoupledSimulation::place_spheres() {
     read_spheres(grains);
     remapped_ = mapping_.place(spheres_);
   }
-  if (!settings_.solids.automatic_coefficient || !survey_due(grains)) return;
-  mapping_.write();
-  survey(grains);
-  read_spheres(grains_.grains());
-  remapped_ += mapping_.place(spheres_);
+  if (settings_.solids.automatic_coefficient && survey_due(grains)) survey(grains);
 }
 
 /// The same answer on all ranks.
-bool CoupledSimulation::survey_due(const GrainArrays& grains) const {
+bool CoupledSimulation::survey_due(const GrainArrays& grains) {
   const SolidSettings& solids = settings_.solids;
   const bool in_turn = fluid_.steps() % solids.survey_every == 0;
   const double distance = solids.survey_distance * units_.spacing();
   const GrainMemory memory = grains_.memory();
-  int due = 0;
-  for (int n = 0; n < grains.owned && due == 0; ++n) {
+  long sums[2] = {0, grains.owned};
+  for (int n = 0; n < grains.owned && sums[0] == 0; ++n) {
     const double* h = memory.history + kHistoryLength * n;
     const Vec3 moved = vector_at(grains.position, n) - Vec3(Eigen::Map<const Vec3>(h + history::surveyed_at));
-    if (h[history::coefficient] == 0 || (in_turn && moved.norm() > distance)) due = 1;
+    if (h[history::surveyed] == 0 || (in_turn && moved.norm() > distance)) sums[0] = 1;
   }
-  int any = 0;
-  MPI_Allreduce(&due, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
-  return any != 0;
+  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_LONG, MPI_SUM, fluid_.decomposition().communicator());
+  if (sums[0] == 0 && sums[1] == surveyed_grains_) return false;
+  surveyed_grains_ = sums[1];
+  return true;
 }
 
-/// Finds the coefficient of each owned grain from the pores that all ranks see around it.
+/// Finds what the pores add to the coefficient in each cell.
 void CoupledSimulation::survey(const GrainArrays& grains) {
-  const std::vector<PoreSums> mine = pores_.sums(spheres_);
-  force_.assign(3 * mine.size(), 0);
-  torque_.assign(3 * mine.size(), 0);
-  for (std::size_t n = 0; n < mine.size(); ++n) {
-    force_[3 * n] = mine[n].volume;
-    force_[3 * n + 1] = mine[n].surface;
-  }
-  grains_.sum_over_copies(force_, torque_);
+  pores_.update(spheres_, law_);
+  mapping_.set_pore_coefficients(pores_.coefficients());
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
-    const double radius = grains.radius[n] / units_.spacing();
-    const double* sums = force_.data() + 3 * n;
     double* h = memory.history + kHistoryLength * n;
-    h[history::coefficient] = law_(2 * radius, crowding_of({sums[0], sums[1]}, radius));
+    h[history::surveyed] = 1;
     Eigen::Map<Vec3>(h + history::surveyed_at) = vector_at(grains.position, n);
   }
   ++surveys_;
@@ -208,10 +192,8 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
     }
     sphere.radius = grains.radius[n] * length;
     sphere.id = grains.id[n];
-    sphere.coefficient = settings_.solids.cells.coefficient;
-    if (!settings_.solids.automatic_coefficient) continue;
-    const double known = grains.coefficient[n * grains.coefficient_stride];
-    sphere.coefficient = known > 0 ? known : law_(2 * sphere.radius, 0);
+    sphere.coefficient = settings_.solids.automatic_coefficient ? law_.of_sphere(2 * sphere.radius)
+                                                                : settings_.solids.cells.coefficient;
   }
 }
 
@@ -296,6 +278,15 @@ void CoupledSimulation::require_finite(const GrainArrays& grains) const {
   lbm::require_stable(extremes, units_, time_si(), 1, "lbm run");
 }
 
+double CoupledSimulation::solid_coefficient(const lbm::Index3& cell) const {
+  const lbm::Index3& lo = fluid_.decomposition().local_box().lo;
+  const std::ptrdiff_t at =
+      cell[0] - lo[0] + cells_.row_pitch * (cell[1] - lo[1]) + cells_.plane_pitch * (cell[2] - lo[2]);
+  if (!(cells_.fraction[at] > 0)) return 0;
+  const double k = static_cast<double>(cells_.strength[at]) / static_cast<double>(cells_.fraction[at]);
+  return settings_.solids.cells.own_coefficients ? k : k * settings_.solids.cells.coefficient;
+}
+
 double CoupledSimulation::overlap() const {
   double sum = mapping_.overlap();
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, fluid_.decomposition().communicator());
@@ -326,10 +317,9 @@ void CoupledSimulation::step_fluid(bool loads_wanted) {
   const double start = MPI_Wtime(), before = times_.mapping + times_.exchange;
   if (loads_wanted || mapping_.is_stale()) {
     MapAndSum visitor(mapping_, times_, loads_wanted);
-    if (loads_wanted) mapping_.begin_loads();
+    if (loads_wanted) mapping_.begin_loads(units_.relaxation_time());
     fluid_.step(visitor);
     mapping_.finish_writing();
-    if (loads_wanted) mapping_.finish_loads(units_.relaxation_time());
   } else {
     fluid_.step();
   }

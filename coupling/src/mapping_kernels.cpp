@@ -10,7 +10,7 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 namespace {
 
 /// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-18 (up to 16).
-constexpr float kFractionRounding = 3.f, kStrengthRounding = 48.f;
+constexpr float kFractionRounding = 3.f, kStrengthRounding = 48.f, kLargestStrength = 15.f;
 
 /// The rows of a block that a sphere reaches.
 struct Slice {
@@ -65,11 +65,15 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
       Floats fraction = covered<kMethod>(sphere, dx, dy, dz);
       fraction = (fraction + kFractionRounding) - kFractionRounding;
       fraction = in_row ? fraction : Floats{};
+      const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       Floats strength = fraction;
-      if constexpr (kOwn) strength = (coefficient * fraction + kStrengthRounding) - kStrengthRounding;
+      if constexpr (kOwn) {
+        const Floats pore = arrays.pore_coefficient ? load(arrays.pore_coefficient + cell) : Floats{};
+        const Floats k = lesser(coefficient + pore, Floats{} + kLargestStrength);
+        strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
+      }
       store(entries, strength);
       if constexpr (kTarget == Target::entries_only) continue;
-      const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       store(arrays.fraction + cell, load(arrays.fraction + cell) + fraction);
       if constexpr (kOwn) store(arrays.strength + cell, load(arrays.strength + cell) + strength);
       float* const* momentum = arrays.momentum;
@@ -116,6 +120,15 @@ void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& a
   return widened(own) / widened(divisor);
 }
 
+/// See lbm::HeldTerms. A cell that a grain barely touches may have a strength of nothing, and no exchange
+/// then.
+[[gnu::always_inline]] inline Floats held_factor(const HeldRule& held, const Floats& fraction,
+                                                 const Floats& strength) {
+  const Floats covered = lesser(fraction, Floats{} + 1.f);
+  const Floats away = held.slope * (1.f - covered) + held.least;
+  return covered * (held.base + away / greater(strength, Floats{} + 1e-12f));
+}
+
 template <class T>
 [[gnu::always_inline]] inline Doubles load_exchange(const T* from) {
   if constexpr (sizeof(T) == sizeof(float))
@@ -158,42 +171,45 @@ struct Moments {
 /// Returns the end of the slice's entries.
 template <class T>
 [[gnu::always_inline]] inline const float* sum_slice(const MappedSphere& m, const SliceList& list,
-                                                     const CellArrays& arrays, const T* const* exchange,
-                                                     const float* entries, LatticeLoad& load_sum) {
+                                                     const CellArrays& arrays, const HeldRule& held,
+                                                     const T* const* exchange, const float* entries,
+                                                     LatticeLoad& load_sum) {
   const Slice slice = slice_of(m, list, arrays);
   const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
   const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
-  Moments all, open;
+  Moments all, lead;
   for (int pack = 0; pack < m.packs; ++pack) {
     const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
     const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
     for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       const double dy = y + lo_y;
-      const Doubles share = shares(load(entries), load(arrays.strength + cell));
+      const Floats strength = load(arrays.strength + cell);
+      const Doubles share = shares(load(entries), strength);
       const Doubles hx = share * load_exchange(exchange[0] + cell),
                     hy = share * load_exchange(exchange[1] + cell),
                     hz = share * load_exchange(exchange[2] + cell);
       all.add(hx, hy, hz, dx, dy);
-      const Doubles clear = widened(1.f - lesser(load(arrays.fraction + cell), Floats{} + 1.f));
-      open.add(clear * hx, clear * hy, clear * hz, dx, dy);
+      const Doubles factor = widened(held_factor(held, load(arrays.fraction + cell), strength));
+      lead.add(factor * hx, factor * hy, factor * hz, dx, dy);
     }
   }
   all.add_to(load_sum.force, load_sum.torque, slice.dz);
-  open.add_to(load_sum.lead, load_sum.spin_lead, slice.dz);
+  lead.add_to(load_sum.lead, load_sum.spin_lead, slice.dz);
   return entries;
 }
 
 template <class T>
-void sum_all(const SliceList& list, const CellArrays& given, const T* const* exchange, const float* entries,
-             LatticeLoad* loads) {
+void sum_all(const SliceList& list, const CellArrays& given, const HeldRule& rule, const T* const* exchange,
+             const float* entries, LatticeLoad* loads) {
   const CellArrays arrays = given;
+  const HeldRule held = rule;
   const T* const from[3] = {exchange[0], exchange[1], exchange[2]};
   for (int i = 0; i < list.count; ++i) {
     fetch_record(list.spheres, list, i);
     fetch_record(loads, list, i);
     const int n = list.numbers[i];
-    entries = sum_slice<T>(list.spheres[n], list, arrays, from, entries, loads[n]);
+    entries = sum_slice<T>(list.spheres[n], list, arrays, held, from, entries, loads[n]);
   }
 }
 
@@ -207,11 +223,12 @@ void strengths_of(const SliceList& list, const FractionRule& rule, const CellArr
   map_by<Target::entries_only>(list, rule, arrays, entries);
 }
 
-void sum_loads(const SliceList& list, const CellArrays& arrays, const float* entries, LatticeLoad* loads) {
+void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held, const float* entries,
+               LatticeLoad* loads) {
   if (arrays.exchange_double[0] != nullptr)
-    sum_all<double>(list, arrays, arrays.exchange_double, entries, loads);
+    sum_all<double>(list, arrays, held, arrays.exchange_double, entries, loads);
   else
-    sum_all<float>(list, arrays, arrays.exchange_float, entries, loads);
+    sum_all<float>(list, arrays, held, arrays.exchange_float, entries, loads);
 }
 
 }  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

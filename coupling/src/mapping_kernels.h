@@ -13,7 +13,12 @@ inline constexpr float kLeastLinearRadius = 1;
 struct FractionRule {
   FractionMethod method = FractionMethod::exact;
   int subcells = 5;
-  bool own_coefficients = false;  ///< strengths are fractions times the sphere's coefficient
+  bool own_coefficients = false;  ///< strengths are fractions times the coefficients of sphere and pore
+};
+
+/// lbm::HeldTerms
+struct HeldRule {
+  float base, slope, least;
 };
 
 /// The sub-box and its arrays as plain data (see PartialSolidArrays): these files are compiled for wide
@@ -22,6 +27,7 @@ struct CellArrays {
   int lo[3], cells_x;
   std::ptrdiff_t row_pitch, plane_pitch;
   float *fraction, *strength, *momentum[3];
+  const float* pore_coefficient;     ///< null: none
   const double* exchange_double[3];  ///< one of the two is null
   const float* exchange_float[3];
 };
@@ -39,15 +45,16 @@ struct SliceList {
 ///
 /// map_slices adds the slices to the cells, one after the other.
 /// strengths_of leaves the cells alone; both store the slices' own strengths in `entries`, eight a pack.
-/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries; to `lead`
-/// and `spin_lead` the same times the part of each cell that is open.
-#define SUFFUSE_DECLARE_MAPPING(instruction_set)                                                             \
-  namespace instruction_set {                                                                                \
-  void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,                 \
-                  float* entries);                                                                           \
-  void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,               \
-                    float* entries);                                                                         \
-  void sum_loads(const SliceList& list, const CellArrays& arrays, const float* entries, LatticeLoad* loads); \
+/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries, and to
+/// `lead` and `spin_lead` what the rule makes of it.
+#define SUFFUSE_DECLARE_MAPPING(instruction_set)                                               \
+  namespace instruction_set {                                                                  \
+  void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,   \
+                  float* entries);                                                             \
+  void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, \
+                    float* entries);                                                           \
+  void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held,        \
+                 const float* entries, LatticeLoad* loads);                                    \
   }
 SUFFUSE_DECLARE_MAPPING(portable)
 SUFFUSE_DECLARE_MAPPING(avx2)

@@ -50,51 +50,54 @@ template <class Visit>
   return kLaneNumbers < static_cast<float>(count) ? Floats{} + 1.f : Floats{};
 }
 
-[[gnu::always_inline]] inline Floats clamped(const Floats& v) {
-  return lesser(greater(v, Floats{}), Floats{} + 1.f);
+/// A unit sphere seen through the kernel w = (15/8 pi) (1 - t^2), t < 1 the distance from the place of
+/// interest, whose distance from the sphere's centre is q < 2. Integrals over shells of that t: of
+/// w over the sphere's surface, and of w over its inside.
+struct Smoothed {
+  Floats surface, solid;
+};
+[[gnu::always_inline]] inline Smoothed smoothed(const Floats& distance) {
+  constexpr float pi = 3.14159265f, scale = 15 / (8 * pi);
+  const Floats q = greater(distance, Floats{} + 0.05f), inverse = 1.f / q;
+  const Floats l = magnitude(q - 1.f), l2 = l * l, l4 = l2 * l2;
+  // The surface lies in shells from l to 1: 2 pi/q times the integral of w t.
+  const Floats ring = 0.25f - (0.5f * l2 - 0.25f * l4);
+  // The part of a shell that is inside is a cap, of 1 - (q^2 + t^2 - 1)/(2 q t) times a half of it.
+  const Floats whole = l * l2 * (1.f / 3) - l * l4 * 0.2f;  // integral of w t^2 up to l
+  const Floats caps = (2.f / 15 - whole) * (2 * pi) -
+                      inverse * pi * ((q * q - 1.f) * ring + (1.f / 12 - (0.25f * l4 - l4 * l2 * (1.f / 6))));
+  const Floats core = q < 1.f ? (4 * pi) * whole : Floats{};
+  return {scale * 2 * pi * inverse * ring, scale * (caps + core)};
 }
 
 }  // namespace
 
-void add_nearness(const double* position, double radius, double near, double far, const PoreCells& cells) {
-  const float r = static_cast<float>(radius), slope = static_cast<float>(1 / ((far - near) * radius)),
-              start = static_cast<float>(far / (far - near));
-  const double reach = radius * (1 + far) > radius + 1 ? radius * (1 + far) : radius + 1;
-  for_rows(position, reach, cells, [&](int y, int z, const Range& xs, double rest) {
-    const std::ptrdiff_t row = cells.near_row * y + cells.near_plane * z;
+void add_smoothed(const double* position, double radius, const PoreCells& cells) {
+  const float per_radius = static_cast<float>(1 / radius);
+  for_rows(position, 2 * radius, cells, [&](int y, int z, const Range& xs, double rest) {
+    const std::ptrdiff_t row = cells.row_pitch * y + cells.plane_pitch * z;
     const Floats other = Floats{} + static_cast<float>(rest);
     for (int x = xs.begin; x < xs.end; x += kLanes) {
-      const Floats dx = distances(x, cells, position[0]), in = first_lanes(xs.end - x);
-      const Floats depth = square_root(dx * dx + other) - r;
-      const Floats nearness = (in * clamped(start - slope * depth) + kRounding) - kRounding;
-      const Floats surface = (in * greater(1.f - magnitude(depth), Floats{}) + kRounding) - kRounding;
-      store(cells.nearness + row + x, load(cells.nearness + row + x) + nearness);
+      const Floats dx = distances(x, cells, position[0]);
+      const Floats q = square_root(dx * dx + other) * per_radius;
+      const Floats in = q < 2.f ? first_lanes(xs.end - x) : Floats{};
+      const Smoothed sphere = smoothed(lesser(q, Floats{} + 2.f));
+      const Floats surface = (in * sphere.surface * per_radius + kRounding) - kRounding;
+      const Floats solid = (in * sphere.solid + kRounding) - kRounding;
       store(cells.surface + row + x, load(cells.surface + row + x) + surface);
+      store(cells.solid + row + x, load(cells.solid + row + x) + solid);
     }
   });
 }
 
-void sum_pores(const double* position, double radius, double reach, const PoreCells& cells, double* volume,
-               double* surface) {
-  const double outer = reach * radius;
-  const float scale = static_cast<float>(1 / (outer * outer));
-  Doubles volumes{}, surfaces{};
-  for_rows(position, outer, cells, [&](int y, int z, const Range& xs, double rest) {
-    const std::ptrdiff_t row = cells.near_row * y + cells.near_plane * z;
-    const float* fraction = cells.fraction + cells.row_pitch * y + cells.plane_pitch * z;
-    const Floats other = Floats{} + static_cast<float>(rest);
-    for (int x = xs.begin; x < xs.end; x += kLanes) {
-      const Floats dx = distances(x, cells, position[0]);
-      const Floats weight = first_lanes(xs.end - x) * greater(1.f - scale * (dx * dx + other), Floats{}) *
-                            clamped(load(cells.nearness + row + x) - 1.f);
-      const Floats open = greater(1.f - load(fraction + x), Floats{});
-      volumes += __builtin_convertvector(weight * open, Doubles);
-      surfaces += __builtin_convertvector(weight * load(cells.surface + row + x), Doubles);
+void narrow_plane(const PoreCells& cells, const PoreTerms& terms, int z) {
+  for (int y = 0; y < cells.cells[1]; ++y) {
+    const std::ptrdiff_t row = cells.row_pitch * y + cells.plane_pitch * z;
+    for (int x = 0; x < cells.cells[0]; x += kLanes) {
+      const Floats open = greater(1.f - load(cells.solid + row + x), Floats{}) + terms.open;
+      const Floats ratio = load(cells.surface + row + x) / open;
+      store(cells.surface + row + x, ratio * (terms.linear + terms.square * ratio));
     }
-  });
-  for (int lane = 0; lane < kLanes; ++lane) {
-    *volume += volumes[lane];
-    *surface += surfaces[lane];
   }
 }
 

@@ -4,26 +4,27 @@
 
 namespace suffuse::coupling {
 
-/// Cells of a rank as plain data: see mapping_kernels.h for why.
+/// Cells of a rank as plain data (see mapping_kernels.h for why), with the layout of the fractions.
 struct PoreCells {
   int lo[3], cells[3];
-  std::ptrdiff_t row_pitch, plane_pitch;  ///< of `fraction`
-  const float* fraction;
-  std::ptrdiff_t near_row, near_plane;  ///< of the two below, which have room for seven cells past each row
-  float* nearness;
-  float* surface;
+  std::ptrdiff_t row_pitch, plane_pitch;
+  float* surface;  ///< smoothed: area of grains in a volume over that volume, 1/cells
+  float* solid;    ///< smoothed: volume of grains in it over that volume
+};
+
+/// What CoefficientLaw makes of the surface per volume of pore, S/V: linear S/V + square (S/V)^2.
+struct PoreTerms {
+  float linear, square, open;  ///< `open` is added to V
 };
 
 /// One set of entry points for each instruction set, defined by compiling pore_kernels.cpp for it.
 ///
-/// add_nearness adds to each cell how near the sphere's surface is (1: within `near` radii or inside, 0:
-/// beyond `far`), and the surface in the cell.
-/// sum_pores adds up volume and surface of the pores in the ball of so many radii about the sphere.
-#define SUFFUSE_DECLARE_PORES(instruction_set)                                                         \
-  namespace instruction_set {                                                                          \
-  void add_nearness(const double* position, double radius, double near, double far, const PoreCells&); \
-  void sum_pores(const double* position, double radius, double reach, const PoreCells& cells,          \
-                 double* volume, double* surface);                                                     \
+/// add_smoothed adds a sphere's surface and volume to the cells within twice its radius.
+/// narrow_plane writes what the terms give over the surface.
+#define SUFFUSE_DECLARE_PORES(instruction_set)                                      \
+  namespace instruction_set {                                                       \
+  void add_smoothed(const double* position, double radius, const PoreCells& cells); \
+  void narrow_plane(const PoreCells& cells, const PoreTerms& terms, int z);         \
   }
 SUFFUSE_DECLARE_PORES(portable)
 SUFFUSE_DECLARE_PORES(avx2)

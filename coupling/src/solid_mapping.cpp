@@ -28,8 +28,9 @@ float linear_offset(double r) {
 }
 
 CellArrays plain(const lbm::PartialSolidArrays& arrays, const lbm::CellBox& box,
-                 const lbm::ExchangeArrays& exchange) {
+                 const lbm::ExchangeArrays& exchange, const float* pore_coefficients) {
   CellArrays plain{};
+  plain.pore_coefficient = pore_coefficients;
   plain.cells_x = box.extent(0);
   plain.row_pitch = arrays.row_pitch;
   plain.plane_pitch = arrays.plane_pitch;
@@ -238,11 +239,18 @@ std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
   return count;
 }
 
+void SolidMapping::set_pore_coefficients(const float* coefficients) {
+  pore_coefficients_ = coefficients;
+  for (const MappedSphere& m : mapped_) mark(m);
+  entries_block_ = -1;
+}
+
 void SolidMapping::write_rows(const lbm::RowBlock& block) {
   if (dirty_[static_cast<std::size_t>(block.z)] == 0) return;
   clear_rows(block);
   const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-  kernels_of(instruction_set_).map_slices(slices_in(block), rule, plain(arrays_, box_, {}), entries_.data());
+  kernels_of(instruction_set_)
+      .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), entries_.data());
   entries_block_ = static_cast<std::ptrdiff_t>(number_of(block));
 }
 
@@ -267,7 +275,7 @@ void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArray
   if (first_slice_.empty()) return;
   const SliceList list = slices_in(block);
   if (list.count == 0) return;
-  const CellArrays arrays = plain(arrays_, box_, exchange);
+  const CellArrays arrays = plain(arrays_, box_, exchange, pore_coefficients_);
   const Kernels kernels = kernels_of(instruction_set_);
   const auto number = static_cast<std::ptrdiff_t>(number_of(block));
   if (entries_block_ != number) {
@@ -275,26 +283,19 @@ void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArray
     kernels.strengths_of(list, rule, arrays, entries_.data());
     entries_block_ = number;
   }
-  kernels.sum_loads(list, arrays, entries_.data(), loads_.data());
+  const HeldRule held{static_cast<float>(held_.base), static_cast<float>(held_.slope),
+                      static_cast<float>(held_.least)};
+  kernels.sum_loads(list, arrays, held, entries_.data(), loads_.data());
 }
 
-/// From sums of exchange and of exchange times the open part of cells: the covered part leads by
-/// whole - slope (1 - eps) of the exchange.
-void SolidMapping::finish_loads(double relaxation_time) {
-  for (std::size_t n = 0; n < loads_.size(); ++n) {
-    const lbm::HeldTerms held = lbm::held_terms(settings_.cells, placed_[n].coefficient, relaxation_time);
-    LatticeLoad& load = loads_[n];
-    for (int a = 0; a < 3; ++a) {
-      load.lead[a] = held.whole * load.force[a] - held.slope * load.lead[a];
-      load.spin_lead[a] = held.whole * load.torque[a] - held.slope * load.spin_lead[a];
-    }
-  }
+void SolidMapping::begin_loads(double relaxation_time) {
+  loads_.assign(mapped_.size(), {});
+  held_ = lbm::held_terms(settings_.cells, relaxation_time);
 }
 
 void SolidMapping::sum(double relaxation_time) {
-  begin_loads();
+  begin_loads(relaxation_time);
   for_each_block([&](const lbm::RowBlock& block) { sum_rows(block, arrays_.exchange); });
-  finish_loads(relaxation_time);
 }
 
 Vec3 SolidMapping::solid_flux(const lbm::Index3& cell) const {

@@ -73,17 +73,19 @@ double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& 
          solid_weight(settings, cell, relaxation_time);
 }
 
-HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time) {
+HeldTerms held_terms(const PartialSolidSettings& settings, double relaxation_time) {
   const double t = relaxation_time - 0.5;
-  double whole = 1, slope = 0;  // of eps/B
-  if (settings.weighting == SolidWeighting::noble_torczynski) {
-    slope = -1 / t;
-  } else if (settings.weighting == SolidWeighting::viscosity_independent) {
-    whole = 1 + kLeastOpenShare / (coefficient * t);
-    slope = 1 - 1 / (coefficient * t);
-  }
   const double part = comes_twice_as_near(settings.solid_operator) ? 0.5 : 1;
-  return {part * whole - 1, part * slope - 1};
+  switch (settings.weighting) {
+    case SolidWeighting::fraction:
+      return {-1, 0, part};
+    case SolidWeighting::noble_torczynski:
+      return {-1, part / t, part};
+    case SolidWeighting::viscosity_independent:
+      break;
+  }
+  const double slope = part / (t * (settings.own_coefficients ? 1 : settings.coefficient));
+  return {part - 1, slope, slope * kLeastOpenShare};
 }
 
 }  // namespace suffuse::lbm

@@ -40,7 +40,7 @@ FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg)
   extvector = 1;
   restart_peratom = 1;
   create_attribute = 1;
-  comm_forward = 7;
+  comm_forward = 6;
   comm_reverse = 6;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
@@ -187,18 +187,16 @@ int FixHydrodynamicForce::maxsize_restart() {
 
 int FixHydrodynamicForce::pack_comm(int n, int* list, double* buffer, int, int*) {
   for (int k = 0; k < n; ++k) {
-    std::copy_n(atom->v[list[k]], 3, buffer + 7 * k);
-    std::copy_n(atom->omega[list[k]], 3, buffer + 7 * k + 3);
-    buffer[7 * k + 6] = history_[list[k]][kCoefficient];
+    std::copy_n(atom->v[list[k]], 3, buffer + 6 * k);
+    std::copy_n(atom->omega[list[k]], 3, buffer + 6 * k + 3);
   }
-  return 7;
+  return 6;
 }
 
 void FixHydrodynamicForce::unpack_comm(int n, int first, double* buffer) {
   for (int k = 0; k < n; ++k) {
-    std::copy_n(buffer + 7 * k, 3, atom->v[first + k]);
-    std::copy_n(buffer + 7 * k + 3, 3, atom->omega[first + k]);
-    history_[first + k][kCoefficient] = buffer[7 * k + 6];
+    std::copy_n(buffer + 6 * k, 3, atom->v[first + k]);
+    std::copy_n(buffer + 6 * k + 3, 3, atom->omega[first + k]);
   }
 }
 

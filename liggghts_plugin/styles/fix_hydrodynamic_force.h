@@ -25,8 +25,7 @@ class FixHydrodynamicForce : public Fix {
   static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
   static constexpr int kHistoryValues = 31;  ///< the coupling's memory of a grain (particle_port.h)
   /// Places in that memory which this fix reads.
-  static constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20,
-                       kCoefficient = 27;
+  static constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20;
 
   FixHydrodynamicForce(LAMMPS* lmp, int narg, char** arg);
   ~FixHydrodynamicForce() override;
@@ -62,8 +61,8 @@ class FixHydrodynamicForce : public Fix {
   /// Brings the forces that the next half step of integration starts with up to date with the loads.
   void loads_changed();
 
-  /// Copies velocities, angular velocities and solid coefficients of owned grains to their ghosts. LIGGGHTS
-  /// leaves the ghosts' half a step behind. Collective.
+  /// Copies velocities and angular velocities of owned grains to their ghosts. LIGGGHTS leaves the ghosts'
+  /// half a step behind. Collective.
   void update_ghost_velocities();
 
   /// Adds what ghosts hold in `force` and `torque` (3 for each of owned and ghost grains) to their owners.

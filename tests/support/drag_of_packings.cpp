@@ -45,18 +45,23 @@ struct Scene {
   CoupledSettings settings;
 };
 
-/// Mean x of the automatic coefficient over the grains.
-double mean_crowding(CoupledSettings settings, const lbm::Index3& cells, PrescribedGrains grains) {
+/// Mean D s/6 over partly covered cells, s the surface per volume of pore that the automatic coefficient
+/// sees.
+double mean_crowding(CoupledSettings settings, const lbm::Index3& cells, double diameter,
+                     PrescribedGrains grains) {
   settings.solids.automatic_coefficient = true;
   settings.solids.cells.weighting = lbm::SolidWeighting::viscosity_independent;
-  settings.solids.law = CoefficientLaw{1, 0, 1, 0};  // x from k = 1 + x/D
+  settings.solids.law = CoefficientLaw{1, 0, 1, 0};  // k = 1 + s/6
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, cells), Vec3::Zero(),
                                grains);
   simulation.map();
-  double sum = 0;
-  for (std::size_t n = 0; n < grains.list.size(); ++n)
-    sum += (simulation.coefficient_of(n) - 1) * 2 * grains.list[n].radius;
-  return sum / static_cast<double>(grains.list.size());
+  double sum = 0, covered = 0;
+  lbm::for_each_cell({{0, 0, 0}, cells}, [&](int x, int y, int z) {
+    const double fraction = simulation.fluid().solid_fraction({x, y, z}), weight = fraction * (1 - fraction);
+    if (weight > 0) sum += weight * (simulation.solid_coefficient({x, y, z}) - 1);
+    covered += weight;
+  });
+  return sum / covered * diameter;
 }
 
 Scene make_scene(const Packing& packing, double diameter, const DragRun& run) {
@@ -158,7 +163,7 @@ DragResult drag_of(const Packing& packing, double diameter, const DragRun& run) 
   scene.settings.pressure_gradient[along] = gradient;
   PrescribedGrains grains = grains_of(scene);
   DragResult result;
-  result.crowding = mean_crowding(scene.settings, scene.cells, grains);
+  result.crowding = mean_crowding(scene.settings, scene.cells, scene.diameter, grains);
   CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells),
                                Vec3::Zero(), grains);
   simulation.map();

@@ -41,7 +41,7 @@ struct DragRun {
 struct DragResult {
   double phi = 0, diameter = 0;  ///< as run; Sauter, cells
   double drag = 0;               ///< K
-  double crowding = 0;           ///< mean x of the automatic coefficient
+  double crowding = 0;           ///< mean D s/6 of CoefficientLaw
   int cells = 0;                 ///< edge of the box
   long steps = 0;
 };

@@ -56,7 +56,6 @@ class PrescribedGrains final : public ParticlePort {
     mass_.clear();
     id_.clear();
     owner_.clear();
-    coefficient_.clear();
     for (std::size_t n = 0; n < list.size(); ++n) add(n, list[n].position);
     for (std::size_t n = 0; n < list.size(); ++n)
       for (int i = -1; i <= 1; ++i)
@@ -80,8 +79,6 @@ class PrescribedGrains final : public ParticlePort {
     arrays.radius = radius_.data();
     arrays.mass = mass_.data();
     arrays.id = id_.data();
-    arrays.coefficient = coefficient_.data();
-    arrays.coefficient_stride = 1;
     return arrays;
   }
 
@@ -141,7 +138,6 @@ class PrescribedGrains final : public ParticlePort {
     mass_.push_back(g.density * sphere_volume(g.radius));
     id_.push_back(g.id);
     owner_.push_back(n);
-    coefficient_.push_back(history_[kHistoryLength * n + history::coefficient]);
   }
 
   Vec3 box_;
@@ -149,7 +145,7 @@ class PrescribedGrains final : public ParticlePort {
   double step_;
   MPI_Comm communicator_;
   int last_id_ = 0;
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_, coefficient_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;
 

@@ -1,5 +1,5 @@
-// k of each sphere from its diameter and the pores around it: the law, the survey of the pores on any number
-// of ranks, and when a survey is made.
+// k in each cell from the sphere's diameter and the pores around the cell: the law, the survey of the pores
+// on any number of ranks, and when a survey is made.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -13,8 +13,6 @@ using namespace suffuse;
 using namespace suffuse::coupling;
 
 namespace {
-
-constexpr CoefficientLaw kReadsCrowding{1, 0, 1, 0};  ///< x from k = 1 + x/D
 
 CoupledSettings cells_as_metres() {
   CoupledSettings settings;
@@ -53,32 +51,52 @@ struct Bed {
     centres = random_packing(request);
   }
 
-  /// x of each grain, in a box that goes on for `water` cells above and below without grains.
-  std::vector<double> crowding(int water = 0) const {
-    CoupledSettings settings = cells_as_metres();
-    settings.solids.law = kReadsCrowding;
-    lbm::Index3 whole = cells;
-    whole[2] += 2 * water;
-    for (int face = 0; face < 6; ++face)
-      if (!request.periodic[static_cast<std::size_t>(face / 2)])
-        settings.fluid.faces[static_cast<std::size_t>(face)].kind = lbm::FaceKind::no_slip;
-    auto list = grains_at(centres, request.radii);
-    for (auto& g : list) g.position[2] += water;
-    PrescribedGrains grains(list, Vec3(whole[0], whole[1], whole[2]), request.periodic, 1.);
-    CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, whole), Vec3::Zero(),
-                                 grains);
-    simulation.map();
-    std::vector<double> x;
-    for (std::size_t n = 0; n < list.size(); ++n)
-      x.push_back((simulation.coefficient_of(n) - 1) * 2 * list[n].radius);
-    return x;
+  PrescribedGrains grains(MPI_Comm communicator = MPI_COMM_WORLD) const {
+    return {grains_at(centres, request.radii), request.box, request.periodic, 1., communicator};
   }
 };
 
-double mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += v;
-  return sum / static_cast<double>(values.size());
+/// k in a cell, wherever it is.
+double coefficient_in(const CoupledSimulation& simulation, const lbm::Index3& cell) {
+  const lbm::CellBox& box = simulation.fluid().decomposition().local_box();
+  bool here = true;
+  for (std::size_t a = 0; a < 3; ++a) here &= cell[a] >= box.lo[a] && cell[a] < box.hi[a];
+  double k = here ? simulation.solid_coefficient(cell) : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &k, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return k;
+}
+
+/// Points that are spread evenly over the unit sphere.
+std::vector<Vec3> directions(int count) {
+  std::vector<Vec3> points;
+  for (int n = 0; n < count; ++n) {
+    const double z = 1 - (2 * n + 1.) / count, turn = n * std::numbers::pi * (3 - std::sqrt(5.));
+    points.push_back(Vec3(std::cos(turn) * std::sqrt(1 - z * z), std::sin(turn) * std::sqrt(1 - z * z), z));
+  }
+  return points;
+}
+
+/// Surface per volume of pore at a place, by summing the kernel over points on and in the spheres.
+double summed_surface_per_pore(const Vec3& place, const std::vector<LatticeSphere>& spheres) {
+  static const std::vector<Vec3> points = directions(4000);
+  double surface = 0, solid = 0;
+  for (const LatticeSphere& s : spheres) {
+    const Vec3 centre(s.position[0], s.position[1], s.position[2]);
+    const double r = s.radius, share = 4 * std::numbers::pi / static_cast<double>(points.size());
+    const auto seen = [&](const Vec3& point) {
+      const double t = (place - point).norm() / r;
+      return t < 1 ? 15 / (8 * std::numbers::pi * r * r * r) * (1 - t * t) : 0;
+    };
+    constexpr int shells = 40;
+    for (const Vec3& n : points) {
+      surface += share * r * r * seen(centre + r * n);
+      for (int i = 0; i < shells; ++i) {
+        const double at = r * (i + 0.5) / shells;
+        solid += share * at * at * (r / shells) * seen(centre + at * n);
+      }
+    }
+  }
+  return surface / (std::max(0., 1 - solid) + PoreSurvey::kOpenShare);
 }
 
 }  // namespace
@@ -86,74 +104,67 @@ double mean(const std::vector<double>& values) {
 TEST_CASE("The coefficient falls with resolution and rises with crowding") {
   for (const auto o : {lbm::SolidOperator::force, lbm::SolidOperator::sc3}) {
     const CoefficientLaw law = coefficient_law(o);
-    for (const double x : {0., 0.3, 0.8, 1.5, 2.5})
+    for (const double surface : {0., 0.1, 0.3, 0.8, 1.5})
       for (double d = 2; d < 60; d *= 1.3) {
-        CHECK(law(d, x) >= law(1.3 * d, x));
-        CHECK(law(d, x + 0.1) >= law(d, x));
-        CHECK(law(d, x) > law.constant);
-        CHECK(law(d, x) <= kLargestCoefficient);
+        CHECK(law(d, surface) >= law(1.3 * d, surface));
+        CHECK(law(d, surface + 0.1) >= law(d, surface));
+        CHECK(law(d, surface) > law.constant);
+        CHECK(law(d, surface) <= kLargestCoefficient);
       }
-    CHECK(law(1e6, 1.5) == Approx(law.constant).epsilon(1e-4));
-    CHECK(law(10, 50) == law(10, 3));  // not extrapolated beyond close packing
+    CHECK(law(1e6, 1e-6) == Approx(law.constant).epsilon(1e-4));
   }
   CHECK_THROWS_AS(coefficient_law(lbm::SolidOperator::sc1), UserError);
   CHECK_THROWS_AS(coefficient_law(lbm::SolidOperator::sc2), UserError);
 }
 
-TEST_CASE("A dense packing's crowding is 0.75 phi/(1 - phi), a lone sphere has none") {
-  // Pores fill 0.4 to 0.45 of the ball, of 0.55 to 0.6 with the share that is added; and within a ball of two
-  // radii the solid fraction of a random packing of 16 is not that of the box: 20 % together.
-  const double phi = GENERATE(0.5, 0.6);
-  const double expected = 0.75 * phi / (1 - phi);
-  CHECK(mean(Bed(24, phi, std::vector<double>(16, 1.)).crowding()) == Approx(expected).epsilon(0.2));
-  Bed alone(24, 0.005, {1.});
-  CHECK(alone.crowding()[0] == 0);
+TEST_CASE("The surface per volume of pore is what a sum over points on and in the spheres gives") {
+  CoupledSettings settings = cells_as_metres();
+  settings.fluid.collision.relaxation_time = 0.8;
+  settings.solids.cells.own_coefficients = true;
+  lbm::Fluid fluid(settings.fluid, lbm::Decomposition::balanced(MPI_COMM_SELF, {24, 20, 20}));
+  const lbm::PartialSolidArrays arrays = fluid.use_partial_solids(settings.solids.cells);
+  std::vector<LatticeSphere> spheres(3);
+  const double centres[3][3] = {{8.2, 9.7, 10.1}, {15.9, 10.4, 9.6}, {11.8, 12.9, 12.2}},
+               radii[3] = {4, 3.5, 1.1};
+  for (std::size_t n = 0; n < 3; ++n) {
+    std::copy_n(centres[n], 3, spheres[n].position);
+    spheres[n].radius = radii[n];
+  }
+  PoreSurvey survey(fluid.instruction_set(), arrays, fluid.decomposition().local_box());
+  survey.update(spheres, {0, 0, 6, 0});  // k = s
+  const auto found = [&](int x, int y, int z) {
+    return survey.coefficients()[x + arrays.row_pitch * y + arrays.plane_pitch * z];
+  };
+  for (const lbm::Index3& cell :
+       {lbm::Index3{12, 10, 10}, {11, 11, 11}, {8, 14, 10}, {4, 9, 9}, {15, 6, 9}, {8, 9, 10}}) {
+    const Vec3 place(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
+    // The smallest sphere's shells are the coarsest: 1 % of its volume.
+    CHECK(found(cell[0], cell[1], cell[2]) == Approx(summed_surface_per_pore(place, spheres)).epsilon(0.01));
+  }
+  CHECK(found(22, 18, 18) == 0);  // farther than a diameter from all
+  survey.update(spheres, {7, 9, 6, 36});
+  const float s = static_cast<float>(summed_surface_per_pore(Vec3(12.5, 10.5, 10.5), spheres));
+  CHECK(found(12, 10, 10) == Approx(s + s * s).epsilon(0.02));  // of the pore alone: no constant, no diameter
 }
 
-TEST_CASE("Open water above and below, or walls, hardly thin out what a bed's grains see") {
-  // Sixteen grains in a layer of 2.4 diameters: nearly all are at an edge of it. Without the rule that a pore
-  // lies between two spheres the water would take x down to half.
-  const Bed bed(24, 0.58, std::vector<double>(16, 1.));
-  const double inside = mean(bed.crowding()), edge = mean(bed.crowding(12));
-  CHECK(edge < inside);
-  CHECK(edge > 0.85 * inside);
-  const Bed walled(36, 0.45, std::vector<double>(27, 1.), {false, false, false});
-  CHECK(mean(walled.crowding()) > 0.9 * 0.75 * 0.45 / 0.55);
-}
-
-TEST_CASE("Coefficients do not depend on the number of ranks") {
+TEST_CASE("Coefficients are the same to the last digit on any number of ranks") {
   std::vector<double> radii = spread_radii(20, 0.4);
   radii[3] = 2.5;  // one that spans ranks
   const Bed bed(30, 0.5, radii);
-  const std::vector<double> x = bed.crowding();
-
-  // The same on this rank alone, its copies added up here.
-  CoupledSettings settings = cells_as_metres();
-  settings.solids.cells.own_coefficients = true;
-  settings.fluid.collision.relaxation_time = 0.8;
-  lbm::Fluid fluid(settings.fluid, lbm::Decomposition::balanced(MPI_COMM_SELF, bed.cells));
-  const lbm::PartialSolidArrays arrays = fluid.use_partial_solids(settings.solids.cells);
-  SolidMapping mapping(settings.solids, fluid.instruction_set(), arrays, fluid.decomposition().local_box());
-  PoreSurvey survey(fluid.instruction_set(), arrays, fluid.decomposition().local_box());
-  PrescribedGrains grains(grains_at(bed.centres, bed.request.radii), bed.request.box, {true, true, true}, 1.);
-  const GrainArrays all = grains.grains();
-  std::vector<LatticeSphere> spheres(static_cast<std::size_t>(all.total));
-  for (int n = 0; n < all.total; ++n) {
-    LatticeSphere& s = spheres[static_cast<std::size_t>(n)];
-    for (int a = 0; a < 3; ++a) s.position[a] = all.position[3 * n + a];
-    s.radius = all.radius[n];
-    s.id = all.id[n];
-  }
-  mapping.update(spheres);
-  std::vector<PoreSums> whole(x.size());
-  const std::vector<PoreSums> parts = survey.sums(spheres);
-  for (std::size_t n = 0; n < spheres.size(); ++n) {
-    whole[static_cast<std::size_t>(spheres[n].id - 1)].volume += parts[n].volume;
-    whole[static_cast<std::size_t>(spheres[n].id - 1)].surface += parts[n].surface;
-  }
-  // Round-off of sums over some thousand cells; k = 1 + x/D loses another digit.
-  for (std::size_t n = 0; n < x.size(); ++n)
-    CHECK(x[n] == Approx(crowding_of(whole[n], bed.request.radii[n])).epsilon(1e-11));
+  PrescribedGrains everywhere = bed.grains(), here = bed.grains(MPI_COMM_SELF);
+  CoupledSimulation shared(cells_as_metres(), lbm::Decomposition::balanced(MPI_COMM_WORLD, bed.cells),
+                           Vec3::Zero(), everywhere);
+  CoupledSimulation alone(cells_as_metres(), lbm::Decomposition::balanced(MPI_COMM_SELF, bed.cells),
+                          Vec3::Zero(), here);
+  shared.map();
+  alone.map();
+  double covered = 0, different = 0;
+  lbm::for_each_cell(shared.fluid().decomposition().local_box(), [&](int x, int y, int z) {
+    covered += shared.solid_coefficient({x, y, z}) > 0 ? 1 : 0;
+    different += shared.solid_coefficient({x, y, z}) != alone.solid_coefficient({x, y, z}) ? 1 : 0;
+  });
+  CHECK(covered > 500);
+  CHECK(different == 0);
 }
 
 TEST_CASE("Pores are surveyed when a grain comes or has moved, and only then") {
@@ -165,14 +176,23 @@ TEST_CASE("Pores are surveyed when a grain comes or has moved, and only then") {
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {30, 16, 16}),
                                Vec3::Zero(), grains);
   for (int n = 0; n < 12; ++n) simulation.step();
-  CHECK(simulation.surveys() == 1);  // once, at the start
-  const double apart = simulation.coefficient_of(0);
+  CHECK(simulation.surveys() == 1);   // once, at the start
+  const lbm::Index3 facing{8, 8, 8};  // the side of the first that the second comes to
+  const double apart = coefficient_in(simulation, facing);
   grains.mobile = true;
   for (int n = 0; n < 100; ++n) simulation.step();
   // 0.04 cells a step pass 0.25 cells every 7 steps, and only each fifth step is asked: every 10 steps.
   CHECK(simulation.surveys() > 8);
   CHECK(simulation.surveys() < 14);
-  CHECK(simulation.coefficient_of(0) > 1.1 * apart);  // the gap closed from 5 cells to one
+  CHECK(coefficient_in(simulation, facing) > 1.1 * apart);  // the gap closed from 5 cells to one
+  const long before = simulation.surveys();
+  grains.mobile = false;
+  simulation.step();
+  CHECK(simulation.surveys() == before);
+  grains.erase(1);
+  simulation.step();
+  CHECK(simulation.surveys() == before + 1);  // and when one goes
+  CHECK(coefficient_in(simulation, facing) < apart + 1e-6);
 }
 
 TEST_CASE("A coefficient that is given stays") {
@@ -184,7 +204,7 @@ TEST_CASE("A coefficient that is given stays") {
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {30, 16, 16}),
                                Vec3::Zero(), grains);
   simulation.step();
-  CHECK(simulation.coefficient_of(0) == 3.25);
+  CHECK(coefficient_in(simulation, {3, 8, 8}) == 3.25);
   CHECK(simulation.surveys() == 0);
 }
 

@@ -23,7 +23,6 @@ class SeenGrains {
  private:
   std::vector<double> positions_, velocities_, spins_, radii_;
   std::vector<int> ids_;
-  Eigen::VectorXd coefficients_;
 };
 
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
@@ -65,10 +64,13 @@ class CoupledSimulation {
   /// Volume by which grains as they were last mapped cover cells more than once, in cells. Collective.
   double overlap() const;
 
-  /// k of sphere n (copies included) as the last step mapped it.
-  double coefficient_of(std::size_t n) const { return spheres_[n].coefficient; }
+  /// k in a cell of this rank as the last step mapped it, the mean of the spheres there; 0 without.
+  double solid_coefficient(const lbm::Index3& cell) const;
   /// Memory that this rank holds for fluid and solids.
   std::size_t bytes() const { return fluid_.bytes() + mapping_.bytes() + pores_.bytes(); }
+  /// Finds automatic coefficients anew before the next step. After a checkpoint: the run that goes on and the
+  /// one that starts from it have the same then.
+  void survey_again() { surveyed_grains_ = -1; }
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 
@@ -87,7 +89,7 @@ class CoupledSimulation {
   void step_fluid(bool loads_wanted);
   void hand_loads_over();
   void read_spheres(const GrainArrays& grains);
-  bool survey_due(const GrainArrays& grains) const;
+  bool survey_due(const GrainArrays& grains);
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
@@ -104,7 +106,7 @@ class CoupledSimulation {
   CoefficientLaw law_;
   int substeps_ = 1;
   std::size_t remapped_ = 0;
-  long surveys_ = 0;
+  long surveys_ = 0, surveyed_grains_ = -1;
   bool loads_are_current_ = true;
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;

@@ -16,9 +16,8 @@ inline constexpr int known = 12;                             ///< 1 once there w
 inline constexpr int acceleration = 13, angular_acceleration = 16;
 inline constexpr int virtual_mass = 19, virtual_moment = 20;
 inline constexpr int lead = 21, spin_lead = 24;  ///< of the fluid that it holds: kg m/s, kg m^2/s
-/// k of the solid weighting where it is automatic (0: not known yet), and where the grain was when it was
-/// found, m.
-inline constexpr int coefficient = 27, surveyed_at = 28;
+/// 1 once the pores around the grain were surveyed for automatic coefficients; where it was then, m.
+inline constexpr int surveyed = 27, surveyed_at = 28;
 }  // namespace history
 inline constexpr int kHistoryLength = 31;
 
@@ -33,9 +32,6 @@ struct GrainArrays {
   const double* radius = nullptr;            ///< total, m
   const double* mass = nullptr;              ///< owned, kg
   const int* id = nullptr;                   ///< total; a copy has its owner's
-  const double* coefficient = nullptr;  ///< total, each `coefficient_stride` values after the last: a copy
-                                        ///< has what its owner's history held at this call
-  std::ptrdiff_t coefficient_stride = kHistoryLength;
 };
 
 /// What stays with a grain from one fluid step to the next, wherever it migrates; SI, owned grains only.

@@ -18,8 +18,8 @@ struct SliceList;
 /// writes is then in the cache when the other reads it. Planes of cells (constant z) in which no sphere moved
 /// are left as they are. Any number of spheres may share a cell: where their fractions add up to more than
 /// one they shrink in proportion, and the exchange of a cell is shared in proportion to the strengths
-/// (fraction times coefficient). Fractions are multiples of 2^-22 and strengths with coefficients of 2^-18,
-/// so that their sums are exact in any order.
+/// (fraction times the coefficients of sphere and pore). Fractions are multiples of 2^-22 and strengths with
+/// coefficients of 2^-18, so that their sums are exact in any order.
 class SolidMapping {
  public:
   SolidMapping(const SolidSettings& settings, lbm::InstructionSet instruction_set,
@@ -28,6 +28,10 @@ class SolidMapping {
   /// Where the spheres are now. Returns how many of them moved (all of them after one came, went or changed
   /// its place in the list). Cells are not written yet.
   std::size_t place(const std::vector<LatticeSphere>& spheres);
+
+  /// What the pores add to the spheres' coefficients in each cell, laid out as the fractions; null: nothing.
+  /// With own_coefficients only. All cells wait to be written then.
+  void set_pore_coefficients(const float* coefficients);
 
   /// Whether any cell waits to be written.
   bool is_stale() const { return stale_; }
@@ -42,9 +46,8 @@ class SolidMapping {
 
   /// The sums over the cells of each sphere: `sum_rows` adds one block's, in between the others; `sum` does
   /// everything for all cells of the rank.
-  void begin_loads() { loads_.assign(mapped_.size(), {}); }
+  void begin_loads(double relaxation_time);
   void sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArrays& exchange);
-  void finish_loads(double relaxation_time);
   void sum(double relaxation_time);
   /// By sphere, as in the last `place`; zero for one that reaches no cell of this rank.
   const std::vector<LatticeLoad>& loads() const { return loads_; }
@@ -87,6 +90,8 @@ class SolidMapping {
   std::vector<float> entries_;    ///< strengths of the slices of one block, which is
   std::ptrdiff_t entries_block_ = -1;
   std::vector<LatticeLoad> loads_;
+  const float* pore_coefficients_ = nullptr;
+  lbm::HeldTerms held_;
 };
 
 }  // namespace suffuse::coupling

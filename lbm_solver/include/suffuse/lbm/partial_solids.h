@@ -45,12 +45,13 @@ double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& 
 
 /// In one step the momentum of a cell comes nearer to its solid's by the share B (SC1, SC2) or 2B (SC3,
 /// `force`) of the difference, and the exchange is what it gives. So after the step the cell is still
-/// exchange (1/share - 1) away; times the covered part eps that is exchange (whole + slope (eps - 1)),
-/// linear in eps for every weighting.
+/// exchange (1/share - 1) away; times the covered part eps that is
+///   exchange eps (base + (slope (1 - eps) + least)/strength)
+/// with the cell's strength, for every weighting.
 struct HeldTerms {
-  double whole = 0, slope = 0;
+  double base = 0, slope = 0, least = 0;
 };
-HeldTerms held_terms(const PartialSolidSettings& settings, double coefficient, double relaxation_time);
+HeldTerms held_terms(const PartialSolidSettings& settings, double relaxation_time);
 
 /// Momentum that the fluid handed to the solids of each cell, one array for each component, in the storage
 /// type of the fluid.
