@@ -61,8 +61,7 @@ Hdf5Series::Hdf5Series(std::string path, ReadSettings settings)
   }
   if (steps.empty())
     complain("no group step_N has both grains and contacts",
-             "`lbm output` has the grains only: dump both with LIGGGHTS's dump, or add contacts as in "
-             "docs/analysis/suffuse-analyse.md");
+             "ask for both in the script: `lbm output ... contacts` (read FILE_grains.h5)");
   std::sort(steps.begin(), steps.end());
   for (const auto& [step, group] : steps) groups_.push_back(group);
 }

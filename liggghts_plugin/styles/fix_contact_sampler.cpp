@@ -137,7 +137,7 @@ void FixContactSampler::forget_user(LAMMPS* lmp, Compute* compute) {
 }
 
 void FixContactSampler::request(bigint step) {
-  requested_step_ = step;
+  requested_steps_.insert(step);
 }
 
 double FixContactSampler::force_exponent() const {
@@ -184,7 +184,7 @@ void FixContactSampler::setup(int) {
 }
 
 bool FixContactSampler::wanted() const {
-  if (requested_step_ == update->ntimestep) return true;
+  if (requested_steps_.contains(update->ntimestep)) return true;
   if (!users_.empty() && update->ntimestep == update->laststep)
     return true;  // for what a script reads after the run
   return std::any_of(users_.begin(), users_.end(),
@@ -193,6 +193,7 @@ bool FixContactSampler::wanted() const {
 
 void FixContactSampler::post_force(int) {
   if (wanted()) sample();
+  requested_steps_.erase(requested_steps_.begin(), requested_steps_.upper_bound(update->ntimestep));
 }
 
 void FixContactSampler::sample() {

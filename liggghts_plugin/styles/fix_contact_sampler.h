@@ -11,6 +11,7 @@ FixStyle(contact/sampler, FixContactSampler)
 
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "compute.h"
@@ -48,7 +49,7 @@ class FixContactSampler : public Fix {
   /// To be called by the destructor of a compute that was added.
   static void forget_user(LAMMPS* lmp, Compute* compute);
 
-  /// Sample on this step as well.
+  /// Sample on this step as well; any number of steps may be waiting.
   void request(bigint step);
 
   /// Grains of a group that this rank owns and their contacts with grains of the same group, at the current
@@ -83,7 +84,7 @@ class FixContactSampler : public Fix {
   std::unique_ptr<ContactCollector> collector_;
   PairGran* pair_ = nullptr;
   std::vector<Compute*> users_;
-  bigint requested_step_ = -1;
+  std::set<bigint> requested_steps_;
   bigint sampled_step_ = -1;
   double volume_ = 0;
   suffuse::Vec3 box_low_ = suffuse::Vec3::Zero();
