@@ -8,9 +8,9 @@
 
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/analysis/snapshot.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/constraint_ratio.h"
 #include "suffuse/micromechanics/layer_contacts.h"
 

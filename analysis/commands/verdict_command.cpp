@@ -12,8 +12,8 @@
 #include "commands/criteria_table.h"
 #include "commands/read_options.h"
 #include "commands/verdict_report.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/coordination.h"
 
 namespace suffuse::analysis {

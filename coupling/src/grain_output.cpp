@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
 
 namespace suffuse::coupling {
@@ -163,15 +163,11 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
         snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, "time_s"), count);
     }
   }
-  if (rank == 0) {
-    const std::filesystem::path target = std::filesystem::path(path_).replace_extension(".xdmf"),
-                                unfinished = target.string() + ".part";
-    std::ofstream(unfinished) << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "
-                                 "Name=\"grains\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
-                              << snapshots << "    </Grid>\n  </Domain>\n</Xdmf>\n";
-    std::filesystem::rename(unfinished, target);
-  }
-  MPI_Barrier(communicator);
+  write_text(std::filesystem::path(path_).replace_extension(".xdmf").string(), "output of grains",
+             "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "
+             "Name=\"grains\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
+                 snapshots + "    </Grid>\n  </Domain>\n</Xdmf>\n",
+             communicator);
 }
 
 }  // namespace suffuse::coupling

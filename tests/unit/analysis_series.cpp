@@ -11,8 +11,8 @@
 #include "hand_packings.h"
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 
 using namespace suffuse;
 using namespace suffuse::analysis;
