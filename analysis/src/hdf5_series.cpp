@@ -187,9 +187,6 @@ void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
     contact.second = grain(ids[2 * c + 1]);
     const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
     const Grain& second = packing.grains[static_cast<std::size_t>(contact.second)];
-    contact.first_id = first.id;
-    contact.second_id = second.id;
-    contact.second_radius = second.radius;
     contact.friction = friction.empty() ? settings_.friction : friction[c];
     RawContact raw;
     raw.separation = branch.empty() ? Vec3(first.position - second.position)

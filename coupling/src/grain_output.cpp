@@ -101,8 +101,8 @@ void write_contacts(Hdf5File& file, const std::string& step, const micromechanic
   std::vector<std::int64_t> ids;
   std::vector<double> force, branch, friction;
   for (const micromechanics::Contact& contact : network.contacts) {
-    if (!contact.counted) continue;
-    ids.insert(ids.end(), {contact.first_id, contact.second_id});
+    if (!is_counted(network, contact)) continue;
+    ids.insert(ids.end(), {first_grain(network, contact).id, second_id(network, contact)});
     force.insert(force.end(), contact.force.begin(), contact.force.end());
     branch.insert(branch.end(), contact.branch.begin(), contact.branch.end());
     friction.push_back(contact.friction);

@@ -79,6 +79,7 @@ class FixContactSampler : public Fix {
   bool wanted() const;
   void sample();
   void add_contact(int i, int j, const double* force_on_i);
+  suffuse::micromechanics::Image image_in(const suffuse::micromechanics::Contact& found) const;
   GroupPacking& group_packing(int group_bit);
 
   std::unique_ptr<ContactCollector> collector_;
@@ -90,9 +91,8 @@ class FixContactSampler : public Fix {
   suffuse::Vec3 box_low_ = suffuse::Vec3::Zero();
   suffuse::Vec3 box_high_ = suffuse::Vec3::Zero();
   std::vector<suffuse::micromechanics::Contact>
-      contacts_;                      // indices are those of LIGGGHTS's atoms, all groups
-  std::vector<int> ghost_of_second_;  // atom index of second, owned or ghost, for its group
-  std::vector<double> friction_;      // coefficient for each pair of types
+      contacts_;                  // indices are those of LIGGGHTS's atoms, ghosts too, all groups
+  std::vector<double> friction_;  // coefficient for each pair of types
   std::map<int, GroupPacking> by_group_;
 };
 

@@ -35,7 +35,7 @@ double mean_of(const std::vector<double>& values) {
 ForceDistribution force_distribution(const Packing& packing, const ForceBins& bins) {
   std::vector<double> normal, tangential;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     normal.push_back(normal_force(contact));
     tangential.push_back(tangential_force(contact));
   }

@@ -18,7 +18,7 @@ Neighbours neighbours_of(const Packing& packing) {
   result.begin.assign(packing.grains.size() + 1, 0);
   const auto each_end = [&](const auto& visit) {
     for (const Contact& c : packing.contacts) {
-      if (c.second == kNotOwned) continue;
+      if (!owns_second(c)) continue;
       visit(c.first, c.second);
       visit(c.second, c.first);
     }

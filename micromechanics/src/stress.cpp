@@ -15,7 +15,7 @@ double arm_length(double radius, double overlap_length, double distance, GrainAr
 TensorSum stress_times_volume(const Packing& packing) {
   TensorSum sum;
   for (const Contact& contact : packing.contacts)
-    if (contact.counted) sum.add(contact.branch * contact.force.transpose());
+    if (is_counted(packing, contact)) sum.add(contact.branch * contact.force.transpose());
   return sum;
 }
 
@@ -24,13 +24,13 @@ std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm
   for (const Contact& contact : packing.contacts) {
     const double distance = contact.branch.norm();
     const double first_radius = packing.grains[static_cast<std::size_t>(contact.first)].radius;
-    const double overlap_length = overlap(contact, first_radius);
+    const double overlap_length = overlap(packing, contact);
     const Mat3 unit = contact.branch / distance * contact.force.transpose();
     stress[static_cast<std::size_t>(contact.first)] +=
         arm_length(first_radius, overlap_length, distance, arm) * unit;
-    if (contact.second != kNotOwned)
+    if (owns_second(contact))
       stress[static_cast<std::size_t>(contact.second)] +=
-          arm_length(contact.second_radius, overlap_length, distance, arm) * unit;
+          arm_length(second_radius(packing, contact), overlap_length, distance, arm) * unit;
   }
   return stress;
 }

@@ -147,14 +147,14 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
   // As many contacts as grains, each with a second listing that does not count.
   micromechanics::Packing network;
   for (int n = 0; n < 2 * owned; ++n) {
+    if (n < owned) network.grains.push_back({rank * 100 + n, 1, Vec3::Zero()});
+    const std::int64_t own = rank * 100 + n / 2;
     micromechanics::Contact contact;
-    contact.counted = n % 2 == 0;
-    contact.first_id = rank * 100 + n / 2;
-    contact.second_id = contact.first_id + (contact.counted ? 1000 : 2000);
-    contact.force = Vec3(1, 2, 3) * static_cast<double>(contact.first_id);
+    contact.first = n / 2;
+    contact.force = Vec3(1, 2, 3) * static_cast<double>(own);
     contact.branch = -contact.force;
     contact.friction = 0.25;
-    network.contacts.push_back(contact);
+    add_image_contact(network, contact, {own + (n % 2 == 0 ? 1000 : 2000), 1, n % 2 == 0});
   }
   snapshot.step = 7;
   snapshot.time = 0.7;
