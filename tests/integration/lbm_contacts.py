@@ -119,6 +119,21 @@ def check_against_run(suffuse, ranks):
     print(f"{ranks} ranks: largest difference to the run {exact:.1e} from HDF5, {text:.1e} from dumps of six digits")
 
 
+def check_frozen(suffuse):
+    """Strong contacts by the first state's mean force, counted here from the file that the run left."""
+    code, _, err = suffuse.analyse("contacts", "bed_grains.h5", "--strong", "frozen", "--output", "frozen.csv")
+    check(code == 0, f"--strong frozen: {err}")
+    threshold = None
+    with h5py.File(suffuse.folder / "bed_grains.h5") as file:
+        for name, row in zip(sorted(file), rows(suffuse.folder / "frozen.csv")):
+            branch, force = file[name]["contacts/branch"][()], file[name]["contacts/force"][()]
+            normal = abs((branch * force).sum(axis=1)) / (branch ** 2).sum(axis=1) ** 0.5
+            threshold = threshold or normal.mean()
+            share = (normal >= threshold).mean()
+            check(difference(float(row["strong_threshold_n"]), threshold) < 1e-12, f"{name}: frozen threshold {row['strong_threshold_n']}, not {threshold}")
+            check(abs(float(row["strong_share"]) - share) < 1e-12, f"{name}: strong share {row['strong_share']}, not {share}")
+
+
 def states(path):
     with h5py.File(path) as file:
         return sorted(int(name[5:]) for name in file)
@@ -173,6 +188,7 @@ def main():
         suffuse.must_run(1, PREPARE, "prepare")
         for ranks in (1, 2, 3):
             check_against_run(suffuse, ranks)
+        check_frozen(suffuse)
         check_states(suffuse, 2)
         check_walls(suffuse, 2)
 
