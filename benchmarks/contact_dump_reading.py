@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""contact_dump_reading.py --analyse PROGRAM [--megabytes 1000] [--cells 18] [--least MB_PER_S]
+"""contact_dump_reading.py --analyse PROGRAM [--megabytes 1000] [--cells 18 | --one-snapshot] [--least MB_PER_S] [--most MB]
 
 How fast `suffuse-analyse contacts` reads and analyses a long dump of contacts on one core, as a ratio to `wc -l` on the same
 file in the same run, and how much memory it takes, for the whole series and for a quarter of its snapshots (the same, or it
-would grow with their number). The dump has the 18 columns of `compute pair/gran/local pos id force force_normal
+would grow with their number). With --one-snapshot all of it is one snapshot, of as many contacts as fit. The dump has the 18 columns of `compute pair/gran/local pos id force force_normal
 force_tangential` in six digits, of a periodic face-centred cubic packing of 4 cells³ grains with random forces.
 """
 import argparse
@@ -18,6 +18,7 @@ import tempfile
 import time
 
 RADIUS = 0.5e-3
+BYTES_OF_A_CONTACT = 172  # about
 
 
 def lattice(cells):
@@ -71,7 +72,7 @@ def in_another_process(action, *arguments):
 
 def write_files(files, cells, megabytes, share, told):
     grains, contacts = snapshot(cells, random.Random(1))
-    count = max(4, round(megabytes * 1e6 / len(contacts))) // share
+    count = max(4, round(megabytes * 1e6 / len(contacts))) // share if share else 1
     for path, text in zip(files, (grains, contacts)):
         write_series(path, text, count)
     told.value = count
@@ -94,12 +95,16 @@ def main():
     parser.add_argument("--megabytes", type=float, default=1000, help="size of the dump of contacts")
     parser.add_argument("--cells", type=int, default=18, help="unit cells along a side: 4 cells³ grains, 24 cells³ contacts")
     parser.add_argument("--least", type=float, help="fail below so many MB/s of processor time")
+    parser.add_argument("--one-snapshot", action="store_true", help="one snapshot of all megabytes")
+    parser.add_argument("--most", type=float, help="fail above so many MB of memory")
     options = parser.parse_args()
+    if options.one_snapshot:
+        options.cells = round((options.megabytes * 1e6 / (24 * BYTES_OF_A_CONTACT)) ** (1 / 3))
     count = multiprocessing.Value("i", 0)
     with tempfile.TemporaryDirectory(prefix="suffuse-benchmark-") as folder:
         memory = {}
         files = [pathlib.Path(folder) / name for name in ("grains.dump", "contacts.dump")]
-        for share in (4, 1):
+        for share in (0,) if options.one_snapshot else (4, 1):
             in_another_process(write_files, files, options.cells, options.megabytes, share, count)
             timed(["wc", "-l", *files])  # brings the files into the system's memory
             count_cpu, count_wall, _ = timed(["wc", "-l", *files])
@@ -108,9 +113,14 @@ def main():
     print(f"{count.value} snapshots of {24 * options.cells ** 3} contacts, {megabytes:.0f} MB")
     print(f"suffuse-analyse contacts: {megabytes / cpu:.0f} MB/s of processor time ({megabytes / wall:.0f} MB/s by the clock)")
     print(f"wc -l: {megabytes / count_cpu:.0f} MB/s; ratio of the times {cpu / count_cpu:.1f}")
-    print(f"memory: {memory[1]:.0f} MB; for a quarter of the snapshots {memory[4]:.0f} MB")
-    if memory[1] > 1.2 * memory[4] + 5:
-        sys.exit("the memory grows with the number of snapshots")
+    if options.one_snapshot:
+        print(f"memory: {memory[0]:.0f} MB")
+    else:
+        print(f"memory: {memory[1]:.0f} MB; for a quarter of the snapshots {memory[4]:.0f} MB")
+        if memory[1] > 1.2 * memory[4] + 5:
+            sys.exit("the memory grows with the number of snapshots")
+    if options.most and max(memory.values()) > options.most:
+        sys.exit(f"more than {options.most:g} MB")
     if options.least and megabytes / cpu < options.least:
         sys.exit(f"slower than {options.least:g} MB/s")
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
 
 namespace suffuse::analysis {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
 #include "suffuse/micromechanics/internal_stability.h"
 

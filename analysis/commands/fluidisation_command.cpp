@@ -268,10 +268,7 @@ std::optional<double> onset_step(const Run& run, const NumberTable& table) {
   return (*steps)[run.sample_of_state[run.result.onset->state - 1]];
 }
 
-void run_command(Options& options) {
-  check(options);
-  const NumberTable table(options.file, kWho);
-  const Run run = measured(options, table);
+ResultRows rows_of(const Options& options, const Run& run, const NumberTable& table) {
   ResultRows rows;
   add_state_at_rest(rows, run, options);
   add_homogeneity(rows, run);
@@ -279,6 +276,14 @@ void run_command(Options& options) {
   add_critical_gradients(rows, run, options);
   add_contact_network(rows, run, table);
   add_layers(rows, run, options);
+  return rows;
+}
+
+void run_command(Options& options) {
+  check(options);
+  const NumberTable table(options.file, kWho);
+  const Run run = measured(options, table);
+  const ResultRows rows = rows_of(options, run, table);
   std::string layers;
   if (!options.layers.files.empty())
     layers = layer_measures(options.layers, table, run.record, onset_step(run, table));
@@ -288,6 +293,17 @@ void run_command(Options& options) {
 }
 
 }  // namespace
+
+ResultRows fluidisation_rows(const std::string& flow, const std::string& grading, double grain_density,
+                             const SeepageFluid& fluid) {
+  Options options;
+  options.grading = grading;
+  options.grain_density = grain_density;
+  options.fluid = fluid;
+  check(options);
+  const NumberTable table(flow, kWho);
+  return rows_of(options, measured(options, table), table);
+}
 
 void add_fluidisation(CLI::App& app) {
   auto options = std::make_shared<Options>();

@@ -8,9 +8,9 @@
 
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/analysis/snapshot.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/constraint_ratio.h"
 #include "suffuse/micromechanics/layer_contacts.h"
 
@@ -47,7 +47,19 @@ class StepRecord {
     }
   }
 
-  /// Within half an interval of the samples.
+  /// The step of the grains at this snapshot. A file of the coupled run counts the fluid's steps, but has the
+  /// time of the record.
+  double step_of(const Snapshot& snapshot) const {
+    return snapshot.time ? at_step(times_, steps_, *snapshot.time) : static_cast<double>(snapshot.step);
+  }
+  /// Is it within the record, or an interval of it?
+  bool covers(const Snapshot& snapshot) const {
+    if (!snapshot.time) return covers(static_cast<double>(snapshot.step));
+    const double margin =
+        times_.size() > 1 ? (times_.back() - times_.front()) / static_cast<double>(times_.size() - 1) : 0;
+    return *snapshot.time >= times_.front() - margin && *snapshot.time <= times_.back() + margin;
+  }
+  /// Within an interval of the samples.
   bool covers(double step) const {
     const double margin =
         steps_.size() > 1 ? (steps_.back() - steps_.front()) / static_cast<double>(steps_.size() - 1) : 0;
@@ -207,8 +219,8 @@ std::string layer_measures(const LayerOptions& options, const NumberTable& table
   std::optional<SnapshotMeasures> at_rest, latest, at_onset;
   Snapshot snapshot;
   while (series->next(snapshot)) {
-    const auto step = static_cast<double>(snapshot.step);
-    if (!steps.covers(step)) continue;
+    if (!steps.covers(snapshot)) continue;
+    const double step = steps.step_of(snapshot);
     const SlidingRule rule{sliding_tolerance({}, snapshot), true};
     const std::vector<LayerNetwork> networks = layer_networks(snapshot.packing, layers, rule, strong);
     if (!reference) {

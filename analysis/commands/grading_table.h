@@ -1,6 +1,6 @@
 #pragma once
 
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/internal_stability.h"
 
 namespace suffuse::analysis {

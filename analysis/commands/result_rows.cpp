@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
 namespace {

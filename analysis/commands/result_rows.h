@@ -18,9 +18,16 @@ struct LayerRow {
 /// as CSV and as JSON.
 class ResultRows {
  public:
+  struct Row {
+    std::string quantity, symbol, unit, source, note;
+    std::optional<double> value;
+  };
+
   void add(std::string quantity, std::string symbol, std::optional<double> value, std::string unit,
            std::string source, std::string note);
   void add_layer(const LayerRow& row) { layers_.push_back(row); }
+
+  const std::vector<Row>& rows() const { return rows_; }
 
   std::string text() const;
   /// A row a result; those of layers have the layer's number in the column `layer`, empty otherwise.
@@ -29,10 +36,6 @@ class ResultRows {
   void write_json(const std::string& path, const std::string& who) const;
 
  private:
-  struct Row {
-    std::string quantity, symbol, unit, source, note;
-    std::optional<double> value;
-  };
   std::vector<Row> rows_;
   std::vector<LayerRow> layers_;
 };

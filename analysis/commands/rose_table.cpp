@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
 

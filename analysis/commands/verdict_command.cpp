@@ -10,10 +10,11 @@
 
 #include "commands/constriction_table.h"
 #include "commands/criteria_table.h"
+#include "commands/fluidisation_command.h"
 #include "commands/read_options.h"
 #include "commands/verdict_report.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/coordination.h"
 
 namespace suffuse::analysis {
@@ -25,7 +26,7 @@ using micromechanics::Grading;
 constexpr const char* kWho = "verdict";
 
 struct Options {
-  std::string grading, name, output, html, figures;
+  std::string grading, name, output, html, figures, flow;
   std::string fractions = "surface-area", pore = "inscribed";
   ReadOptions read;
   SplitOption split;
@@ -136,7 +137,8 @@ VerdictInput input_of(const Options& options, const std::optional<Snapshot>& sna
                      options.relative_density,
                      options.porosity,
                      options.hydraulic,
-                     options.alpha};
+                     options.alpha,
+                     options.flow};
   set_limits(options.limits, kWho, input.limits, &input.constriction_limits);
   const std::string& file = options.grading.empty() ? options.read.files.front() : options.grading;
   if (input.name.empty()) input.name = files::path(file).stem().string();
@@ -200,7 +202,10 @@ void run(Options& options) {
   options.constriction.pore = pore_names().at(options.pore);
   const std::optional<Snapshot> snapshot = last_snapshot(options);
   const VerdictInput input = input_of(options, snapshot);
-  const VerdictFindings findings = find_verdicts(input, measure_sample(options, input, snapshot));
+  VerdictFindings findings = find_verdicts(input, measure_sample(options, input, snapshot));
+  if (!options.flow.empty())
+    findings.flow = fluidisation_rows(options.flow, options.grading, options.hydraulic.grain_density,
+                                      options.hydraulic.fluid);
   // Files are opened before the figures are drawn, so that a name that cannot be written is told at once.
   std::optional<SafeFile> markdown, html;
   if (!options.output.empty()) markdown.emplace(options.output, "verdict --output");
@@ -235,6 +240,8 @@ void add_verdict(CLI::App& app) {
                       "grading: CSV file or dump of grains, as in `grading`; without it that of the sample");
   options->read.add_to(*command, "--sample");
   options->split.add_to(*command);
+  command->add_option("--flow", options->flow,
+                      "record of an upward-flow run (`lbm monitor`), as in `fluidisation`");
   command->add_option("--name", options->name, "of the soil; the file's if not given");
   command->add_option("--relative-density", options->relative_density, "0 (loosest) to 1 (densest)");
   command->add_option("--porosity", options->porosity, "of the soil; the sample's if not given");

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
 #include "commands/constriction_table.h"
 #include "commands/force_table.h"
 #include "commands/grading_table.h"
 #include "commands/rose_table.h"
 #include "suffuse/analysis/figure_script.h"
+#include "suffuse/analysis/flow_record.h"
 #include "suffuse/analysis/record_table.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/directional_distribution.h"
@@ -94,6 +97,34 @@ std::vector<Drawing> sample_drawings(const SampleFindings& sample, const microme
            {"rose.csv", "--plane", "xz", "--panels", "2"}}};
 }
 
+/// Quantities of the layers that are drawn, where the record has them.
+constexpr const char* kLayerQuantities[] = {"porosity_layer", "hydraulic_gradient_layer",
+                                            "effective_stress_ratio", "coordination_layer"};
+
+std::vector<Drawing> flow_drawings(const std::string& flow, const ResultRows& results,
+                                   const std::string& folder) {
+  using Of = VerdictFigure::Of;
+  std::error_code problem;
+  std::filesystem::copy_file(flow, folder + "/flow.csv", problem);
+  if (problem) throw_user_error({kWho, "--flow", flow, "be readable", problem.message()});
+  results.write_csv(folder + "/flow_results.csv", kWho);
+  Drawing layers{{Of::layers, "layers", "", "Profiles over the layers of the bed at four instants",
+                  "Layers of the bed, 1 at the top, from the first sample to the last.", ""},
+                 "layers.py",
+                 {"flow.csv", "--quantities"}};
+  const NumberTable table(flow, kWho);
+  for (const char* quantity : kLayerQuantities)
+    if (table.find(fmt::format("{}_2", quantity)) != nullptr) layers.words.push_back(quantity);
+  std::vector<Drawing> drawings{
+      {{Of::flow, "flow", "",
+        "Superficial velocity, stresses and rise of the bed over the hydraulic gradient",
+        "Velocity, effective stresses of the layers and rise of the bed over the gradient.", ""},
+       "fluidisation.py",
+       {"flow.csv", "--results", "flow_results.csv"}}};
+  if (layers.words.size() > 2) drawings.push_back(std::move(layers));
+  return drawings;
+}
+
 std::string content_of(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -130,6 +161,8 @@ std::vector<VerdictFigure> draw_verdict_figures(const VerdictInput& input, const
   std::vector<Drawing> drawings = grading_drawings(input, findings, folder);
   if (packing != nullptr)
     for (Drawing& drawing : sample_drawings(*findings.sample, *packing, folder)) drawings.push_back(drawing);
+  if (findings.flow)
+    for (Drawing& drawing : flow_drawings(input.flow, *findings.flow, folder)) drawings.push_back(drawing);
   const bool measured = !findings.measured.empty();
   if (findings.analysis || measured) {
     Drawing boundaries{

@@ -10,7 +10,7 @@ namespace suffuse::analysis {
 
 /// A drawn figure and the one command that draws it again from its CSV files.
 struct VerdictFigure {
-  enum class Of { grading, shape, boundaries, forces, rose };
+  enum class Of { grading, shape, boundaries, forces, rose, flow, layers };
   Of of = Of::grading;
   std::string file;  ///< its name without an ending
   std::string svg, meaning, caption, command;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands/hydraulic_table.h"
+#include "commands/result_rows.h"
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/snapshot.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
@@ -25,6 +26,7 @@ struct VerdictInput {
   std::optional<double> porosity;
   HydraulicInput hydraulic;
   std::optional<double> alpha;  ///< given by the user, for the gradients
+  std::string flow;             ///< record of an upward-flow run; empty: none
 };
 
 /// A sample's last snapshot, measured.
@@ -59,6 +61,7 @@ struct VerdictFindings {
   std::vector<micromechanics::CriterionResult> measured;  ///< chapter 4's boundary on the sample
   std::vector<HydraulicRow> hydraulic;                    ///< empty without a porosity
   std::vector<CriteriaGroup> groups;
+  std::optional<ResultRows> flow;  ///< of the run with upward flow
 };
 
 /// Everything but the sample, which is measured before.

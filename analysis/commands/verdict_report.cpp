@@ -246,6 +246,22 @@ void add_hydraulic(ReportDocument& report, const VerdictFindings& findings) {
   report.table(std::move(table));
 }
 
+void add_flow(ReportDocument& report, const VerdictFindings& findings,
+              const std::vector<VerdictFigure>& figures, const std::string& links) {
+  if (!findings.flow) return;
+  report.heading("Upward flow");
+  report.paragraph(
+      "What a run measured, beside the formulas (`docs/analysis/fluidisation.md`). Its bed is that of the "
+      "run, whose porosity may differ from the soil's above.");
+  ReportTable table{{"quantity", "value", "unit", "source", "note"}, {}};
+  for (const ResultRows::Row& row : findings.flow->rows())
+    table.rows.push_back(
+        {row.quantity, row.value ? number(*row.value) : std::string("-"), row.unit, row.source, row.note});
+  report.table(std::move(table));
+  add_figures(report, figures, VerdictFigure::Of::flow, links);
+  add_figures(report, figures, VerdictFigure::Of::layers, links);
+}
+
 }  // namespace
 
 ReportDocument verdict_report(const VerdictInput& input, const VerdictFindings& findings,
@@ -260,6 +276,7 @@ ReportDocument verdict_report(const VerdictInput& input, const VerdictFindings& 
   add_fabric(report, input, findings);
   add_constraints(report, findings);
   add_hydraulic(report, findings);
+  add_flow(report, findings, figures, links);
   add_sample(report, findings, figures, links);
   report.heading("Sources");
   report.paragraph(

@@ -77,7 +77,7 @@ def draw_velocity(panel, gradient, velocity, results):
     panel.legend(fontsize=7, loc="upper left")
 
 
-def draw_record(series, results, output):
+def draw_record(series, results, output, width):
     import suffuse_style as style
 
     layers = numbered(series, "hydraulic_gradient_layer_")
@@ -89,7 +89,7 @@ def draw_record(series, results, output):
     # After the bed has begun to move its own gradient hardly rises: driving gradient where there is one.
     driving = series["applied_gradient"] if "applied_gradient" in series else gradient
     rises = [name for name in (f"centre_of_grains_{axis}_m", "bed_height_m") if name in series]
-    figure, axes = style.stacked_panels(1 + bool(stresses) + bool(rises), panel_height=2.1)
+    figure, axes = style.stacked_panels(1 + bool(stresses) + bool(rises), panel_height=2.1, width=width or style.COLUMN_WIDTH)
     draw_velocity(axes[0], gradient, series[velocity], results)
     remaining = list(axes[1:])
     if stresses:
@@ -107,12 +107,12 @@ def draw_record(series, results, output):
         mark_critical(panel, results)
         panel.set_ylabel("rise (µm)")
         panel.legend(fontsize=7, loc="upper left")
-        panel.set_xlabel("hydraulic gradient i (−): over the bed, each layer's own, driving (rise)" if driving is not gradient else "hydraulic gradient i (−)")
+        panel.set_xlabel("hydraulic gradient i (−):\nover the bed, each layer's own, driving (rise)" if driving is not gradient else "hydraulic gradient i (−)")
     else:
         axes[-1].set_xlabel("hydraulic gradient i (−)")
     figure.align_ylabels(axes)
     for path in output:
-        figure.savefig(path)
+        style.save(figure, path)
 
 
 def rows_of(path, *needed):
@@ -306,6 +306,7 @@ def main():
     parser.add_argument("--step", type=float, help="of the second distribution; the last if not given")
     parser.add_argument("--time", type=float, help="of the slice, s: the nearest snapshot; the last if not given")
     parser.add_argument("--position", type=float, help="of the slice, y in m")
+    parser.add_argument("--width", type=float, help="of the record's figure, inches")
     parser.add_argument("--output", required=True, nargs="+", help="files to write; their endings say the format")
     options = parser.parse_args()
     if sum(given is not None for given in (options.series, options.fields, options.measures)) != 1:
@@ -315,7 +316,7 @@ def main():
     elif options.fields:
         draw_slice(options.fields, options.time, options.position, options.output)
     else:
-        draw_record(TimeSeries(options.series), results_of(options.results), options.output)
+        draw_record(TimeSeries(options.series), results_of(options.results), options.output, options.width)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,8 @@ import sys
 from time_series import TimeSeries
 
 NAMES = {"hydraulic_gradient_layer": "local gradient i (−)", "porosity_layer": "porosity n (−)", "pressure_layer_pa": "pressure (Pa)",
-         "vertical_stress_pa": "σ′$_{zz}$ (Pa)", "effective_stress_ratio": "σ′$_{zz}$/σ′$_{zz0}$ (−)", "void_ratio": "void ratio e (−)"}
+         "vertical_stress_pa": "σ′$_{zz}$ (Pa)", "effective_stress_ratio": "σ′$_{zz}$/σ′$_{zz0}$ (−)", "void_ratio": "void ratio e (−)",
+         "void_ratio_layer": "void ratio e (−)", "coordination_layer": "coordination number Z (−)", "stable_share_layer": "stable share M$_s$ (−)"}
 
 
 def layered(series):

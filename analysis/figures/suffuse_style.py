@@ -40,9 +40,9 @@ def width_of(options):
     return options.width or COLUMN_WIDTH
 
 
-def stacked_panels(count, panel_height=1.55):
+def stacked_panels(count, panel_height=1.55, width=COLUMN_WIDTH):
     """A figure of `count` panels on one abscissa, and the list of its axes."""
-    figure, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=(COLUMN_WIDTH, panel_height * count + 0.4))
+    figure, axes = plt.subplots(count, 1, sharex=True, squeeze=False, figsize=(width, panel_height * count + 0.4))
     return figure, list(axes[:, 0])
 
 

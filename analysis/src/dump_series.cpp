@@ -185,9 +185,6 @@ Contact DumpSeries::contact_of(std::span<const double> row, const ColumnPlan& pl
   contact.second = grain_of(row[id2]);
   const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
   const Grain& second = packing.grains[static_cast<std::size_t>(contact.second)];
-  contact.first_id = first.id;
-  contact.second_id = second.id;
-  contact.second_radius = second.radius;
   contact.friction = plan.has[friction] ? row[friction] : settings_.friction;
   RawContact raw;
   raw.separation = plan.has_vector(x1) && plan.has_vector(x2) ? Vec3(vector_at(row, x1) - vector_at(row, x2))

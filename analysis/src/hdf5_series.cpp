@@ -61,8 +61,7 @@ Hdf5Series::Hdf5Series(std::string path, ReadSettings settings)
   }
   if (steps.empty())
     complain("no group step_N has both grains and contacts",
-             "`lbm output` has the grains only: dump both with LIGGGHTS's dump, or add contacts as in "
-             "docs/analysis/suffuse-analyse.md");
+             "ask for both in the script: `lbm output ... contacts` (read FILE_grains.h5)");
   std::sort(steps.begin(), steps.end());
   for (const auto& [step, group] : steps) groups_.push_back(group);
 }
@@ -188,9 +187,6 @@ void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
     contact.second = grain(ids[2 * c + 1]);
     const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
     const Grain& second = packing.grains[static_cast<std::size_t>(contact.second)];
-    contact.first_id = first.id;
-    contact.second_id = second.id;
-    contact.second_radius = second.radius;
     contact.friction = friction.empty() ? settings_.friction : friction[c];
     RawContact raw;
     raw.separation = branch.empty() ? Vec3(first.position - second.position)

@@ -98,6 +98,9 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
                       "split it in several `lbm run`"});
   const double window = request.window > 0 ? request.window : request.time / 20;
   const long steady_every = std::max(10L, steps_in(window, units));
+  if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
+                  [](const OutputRequest& output) { return output.contacts; }))
+    port_.use_contacts();
   port_.begin(steps * simulation_.substeps());
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
@@ -119,6 +122,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
     port_.check_unchanged();
     if (follow_variables) set_values();
     if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
+    if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
     if (ending) port_.end_after(simulation_.substeps());
     simulation_.step();
     {

@@ -322,15 +322,16 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
     } else {
       (void)reader.accept("fields");
       const std::string word = reader.word("field");
-      if (word == "grains")
+      if (word == "grains" || word == "contacts") {
         output.grains = true;
-      else if (const auto field = fields.find(word); field != fields.end()) {
+        output.contacts = output.contacts || word == "contacts";
+      } else if (const auto field = fields.find(word); field != fields.end()) {
         refuse_repeated(
             reader, word,
             std::find(output.fields.begin(), output.fields.end(), field->second) != output.fields.end());
         output.fields.push_back(field->second);
       } else
-        reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains");
+        reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains, contacts");
     }
   }
   if (output.every <= 0 || output.file.empty())

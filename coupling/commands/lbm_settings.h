@@ -26,6 +26,7 @@ struct OutputRequest {
   double every = 0;  ///< s
   std::vector<lbm::Field> fields;
   bool grains = false;
+  bool contacts = false;  ///< beside the grains, which come with them
 };
 
 /// `lbm restart write FILE every T`

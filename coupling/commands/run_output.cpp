@@ -33,6 +33,15 @@ void require_writable(const std::string& who, const std::string& file, MPI_Comm 
   if (failed != 0) throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
 
+bool exists_for_all(const std::string& file, MPI_Comm communicator) {
+  int rank = 0, exists = 0;
+  MPI_Comm_rank(communicator, &rank);
+  std::error_code ignored;
+  if (rank == 0) exists = std::filesystem::exists(file, ignored) ? 1 : 0;
+  MPI_Bcast(&exists, 1, MPI_INT, 0, communicator);
+  return exists != 0;
+}
+
 /// LIGGGHTS's step in a saved state of the water.
 constexpr const char* kGrainsStep = "liggghts_step";
 
@@ -89,6 +98,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (std::any_of(fields_.begin(), fields_.end(),
                     [&](const auto& open) { return open->request.id == request.id; }))
       continue;
+    const bool continues = continue_after && exists_for_all(request.file, lmp->world);
     for (const std::string& file : files_of(request))
       require_writable("lbm output " + request.id, file, lmp->world);
     lbm::FieldOutputSettings fields;
@@ -102,6 +112,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     fields_.push_back(std::make_unique<Fields>(Fields{request,
                                                       steps_in(request.every, simulation.units()),
                                                       -1,
+                                                      continues,
                                                       lbm::FieldOutput(fields, simulation.units()),
                                                       {}}));
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
@@ -116,6 +127,12 @@ bool RunOutput::wants_values(long step) const {
                      [&](const auto& monitor) { return step % monitor->every() == 0; });
 }
 
+bool RunOutput::wants_contacts(long step) const {
+  return std::any_of(fields_.begin(), fields_.end(), [&](const auto& fields) {
+    return fields->request.contacts && step % fields->every == 0;
+  });
+}
+
 bool RunOutput::due(long step) const {
   return wants_values(step) || (checkpoint_every_ > 0 && step % checkpoint_every_ == 0) ||
          std::any_of(fields_.begin(), fields_.end(),
@@ -128,18 +145,30 @@ void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulat
   for (const auto& monitor : monitors_)
     if (step % monitor->every() == 0) monitor->write(lmp, port, simulation);
   for (const auto& fields : fields_) {
-    if (step % fields->every != 0 || fields->last_step == step) continue;
+    const bool first = fields->last_step < 0 && !fields->continues;
+    if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
     fields->last_step = step;
     fields->fluid.write(simulation.fluid());
     if (!fields->grains) continue;
-    simulation.refresh_loads();
-    const GrainArrays grains = port.grains();
-    fields->grains->write(step, simulation.time_si(), grains, port.memory(),
-                          simulation.fluid().decomposition().communicator());
+    write_grains(*fields, port, simulation);
   }
   if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0)
     write_checkpoint(lmp, simulation, checkpoint_->file);
   started_ = true;
+}
+
+void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation) {
+  simulation.refresh_loads();
+  GrainSnapshot snapshot;
+  snapshot.step = simulation.fluid().steps();
+  snapshot.time = simulation.time_si();
+  if (fields.request.contacts) snapshot.network = &port.contacts();
+  snapshot.grains = port.grains();
+  snapshot.memory = port.memory();
+  snapshot.box_low = port.box_low();
+  snapshot.box_high = port.box_high();
+  snapshot.periodic = port.periodic();
+  fields.grains->write(snapshot, simulation.fluid().decomposition().communicator());
 }
 
 }  // namespace suffuse::coupling

@@ -26,17 +26,22 @@ class RunOutput {
   bool due(long step) const;
   /// Are values of LIGGGHTS's computes wanted then?
   bool wants_values(long step) const;
+  /// Are contacts wanted then?
+  bool wants_contacts(long step) const;
 
-  /// Writes what is due now; everything at the first call. Collective.
+  /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
  private:
   struct Fields {
     OutputRequest request;
     long every = 1, last_step = -1;
+    bool continues;  ///< what an earlier run left in the file: its first state is there
     lbm::FieldOutput fluid;
     std::optional<GrainOutput> grains;
   };
+
+  static void write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
   std::vector<std::unique_ptr<Fields>> fields_;

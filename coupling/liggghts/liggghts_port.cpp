@@ -17,7 +17,9 @@
 #include "output.h"
 #include "signal_handling.h"
 #include "styles/early_stop.h"
+#include "styles/fix_contact_sampler.h"
 #include "styles/fix_hydrodynamic_force.h"
+#include "styles/style_support.h"
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
 #include "timer.h"
@@ -278,6 +280,10 @@ Vec3 LiggghtsPort::box_low() const {
   return Eigen::Map<const Vec3>(lmp_->domain->boxlo);
 }
 
+Vec3 LiggghtsPort::box_high() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->boxhi);
+}
+
 Vec3 LiggghtsPort::box_size() const {
   return Eigen::Map<const Vec3>(lmp_->domain->prd);
 }
@@ -304,6 +310,24 @@ lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
 
 void LiggghtsPort::announce_values(int substeps) {
   lmp_->modify->addstep_compute(lmp_->update->ntimestep + substeps);
+}
+
+void LiggghtsPort::use_contacts() {
+  require_granular_pair_style(lmp_, "lbm output ... contacts");
+  LAMMPS_NS::FixContactSampler::of(lmp_);
+}
+
+void LiggghtsPort::announce_contacts(int substeps) {
+  LAMMPS_NS::FixContactSampler::of(lmp_).request(lmp_->update->ntimestep + substeps);
+}
+
+const micromechanics::Packing& LiggghtsPort::contacts() {
+  return LAMMPS_NS::FixContactSampler::of(lmp_).packing(fix_->groupbit);
+}
+
+std::array<bool, 3> LiggghtsPort::periodic() const {
+  const int* faces = lmp_->domain->periodicity;
+  return {faces[0] != 0, faces[1] != 0, faces[2] != 0};
 }
 
 LiggghtsPort::Summary LiggghtsPort::summary() const {

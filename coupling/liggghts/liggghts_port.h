@@ -7,6 +7,7 @@
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/lbm/decomposition.h"
 #include "suffuse/lbm/fluid.h"
+#include "suffuse/micromechanics/contact_network.h"
 
 namespace LAMMPS_NS {
 class LAMMPS;
@@ -55,6 +56,19 @@ class LiggghtsPort final : public ParticlePort {
   /// Computes will be asked for values when the next so many steps are done.
   void announce_values(int substeps);
 
+  /// Contacts can be asked for in the runs that begin after this: a UserError where no granular pair style
+  /// makes any. Collective.
+  void use_contacts();
+  /// They will be when the next so many steps are done: found among these steps' forces, they are those that
+  /// move the grains and that our computes see.
+  void announce_contacts(int substeps);
+  /// This rank's grains of the fix's group, their contacts with each other, and the box, now. Valid until
+  /// `advance`. Collective.
+  const micromechanics::Packing& contacts();
+
+  /// Which faces of LIGGGHTS's box are periodic: those across x, y, z.
+  std::array<bool, 3> periodic() const;
+
   /// Sets LIGGGHTS's time step, s.
   void set_time_step(double step);
 
@@ -64,8 +78,9 @@ class LiggghtsPort final : public ParticlePort {
   /// A UserError if the box changed since `begin`.
   void check_unchanged() const;
 
-  /// Low corner and size of LIGGGHTS's box, m.
+  /// Corners and size of LIGGGHTS's box, m.
   Vec3 box_low() const;
+  Vec3 box_high() const;
   Vec3 box_size() const;
 
   /// LIGGGHTS's own sub-boxes snapped to cells of a box of fluid from `low`, so that grains and cells are on

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
 
 namespace suffuse::coupling {
@@ -17,8 +17,8 @@ struct Rows {
   std::size_t first = 0, mine = 0, all = 0;
 };
 
-Rows rows_of(int owned, MPI_Comm communicator) {
-  long mine = owned, before = 0, all = 0;
+Rows rows_of(std::size_t owned, MPI_Comm communicator) {
+  long mine = static_cast<long>(owned), before = 0, all = 0;
   MPI_Exscan(&mine, &before, 1, MPI_LONG, MPI_SUM, communicator);
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -27,9 +27,10 @@ Rows rows_of(int owned, MPI_Comm communicator) {
   return {static_cast<std::size_t>(before), static_cast<std::size_t>(mine), static_cast<std::size_t>(all)};
 }
 
-class SnapshotWriter {
+/// Arrays of one group: a row a grain or a contact, those of rank 0 first.
+class RowWriter {
  public:
-  SnapshotWriter(Hdf5File& file, const std::string& group, const Rows& rows)
+  RowWriter(Hdf5File& file, const std::string& group, const Rows& rows)
       : file_(file), group_(group), rows_(rows) {}
 
   template <class T>
@@ -38,7 +39,14 @@ class SnapshotWriter {
     file_.write(group_ + "/" + name, {{rows_.all}, {rows_.first}, {rows_.mine}}, values);
   }
 
-  /// Three values a grain, `stride` apart.
+  /// `columns` values a row, one row after the other.
+  template <class T>
+  void table(const std::string& name, std::size_t columns, const std::vector<T>& values) {
+    file_.create_array<T>(group_ + "/" + name, {rows_.all, columns});
+    file_.write(group_ + "/" + name, {{rows_.all, columns}, {rows_.first, 0}, {rows_.mine, columns}}, values);
+  }
+
+  /// Three values a row, `stride` apart.
   void vectors(const std::string& name, const double* values, int stride) {
     std::vector<double> packed;
     packed.reserve(3 * rows_.mine);
@@ -46,8 +54,7 @@ class SnapshotWriter {
       const double* from = values + n * static_cast<std::size_t>(stride);
       packed.insert(packed.end(), from, from + 3);
     }
-    file_.create_array<double>(group_ + "/" + name, {rows_.all, 3});
-    file_.write(group_ + "/" + name, {{rows_.all, 3}, {rows_.first, 0}, {rows_.mine, 3}}, packed);
+    table(name, 3, packed);
   }
 
  private:
@@ -55,6 +62,58 @@ class SnapshotWriter {
   std::string group_;
   Rows rows_;
 };
+
+void write_grains(Hdf5File& file, const std::string& step, const GrainArrays& grains,
+                  const GrainMemory& memory, MPI_Comm communicator) {
+  const Rows rows = rows_of(static_cast<std::size_t>(grains.owned), communicator);
+  file.create_group(step + "/grains");
+  RowWriter writer(file, step + "/grains", rows);
+  writer.scalars("id", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
+  std::vector<double> radius(grains.radius, grains.radius + grains.owned);
+  writer.scalars("radius", radius);
+  for (double& r : radius) r *= 2;
+  writer.scalars("diameter", radius);
+  writer.vectors("position", grains.position, 3);
+  writer.vectors("velocity", grains.velocity, 3);
+  writer.vectors("angular_velocity", grains.angular_velocity, 3);
+  writer.vectors("force", memory.load, 6);
+  writer.vectors("torque", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
+}
+
+/// The same on all ranks; rank 0 writes it.
+void write_box(Hdf5File& file, const std::string& step, const GrainSnapshot& snapshot, int rank) {
+  const std::size_t mine = rank == 0 ? 1 : 0;
+  std::vector<double> corners;
+  std::vector<std::uint8_t> periodic;
+  if (rank == 0) {
+    corners.insert(corners.end(), snapshot.box_low.begin(), snapshot.box_low.end());
+    corners.insert(corners.end(), snapshot.box_high.begin(), snapshot.box_high.end());
+    periodic.assign(snapshot.periodic.begin(), snapshot.periodic.end());
+  }
+  file.create_array<double>(step + "/box", {2, 3});
+  file.write(step + "/box", {{2, 3}, {0, 0}, {2 * mine, 3}}, corners);
+  file.create_array<std::uint8_t>(step + "/periodic", {3});
+  file.write(step + "/periodic", {{3}, {0}, {3 * mine}}, periodic);
+}
+
+void write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
+                    MPI_Comm communicator) {
+  std::vector<std::int64_t> ids;
+  std::vector<double> force, branch, friction;
+  for (const micromechanics::Contact& contact : network.contacts) {
+    if (!is_counted(network, contact)) continue;
+    ids.insert(ids.end(), {first_grain(network, contact).id, second_id(network, contact)});
+    force.insert(force.end(), contact.force.begin(), contact.force.end());
+    branch.insert(branch.end(), contact.branch.begin(), contact.branch.end());
+    friction.push_back(contact.friction);
+  }
+  file.create_group(step + "/contacts");
+  RowWriter writer(file, step + "/contacts", rows_of(friction.size(), communicator));
+  writer.table("ids", 2, ids);
+  writer.table("force", 3, force);
+  writer.table("branch", 3, branch);
+  writer.scalars("friction", friction);
+}
 
 std::string xdmf_attribute(const std::string& file, const std::string& group, const std::string& name,
                            std::size_t rows, bool vector, bool integer) {
@@ -81,31 +140,22 @@ std::string xdmf_snapshot(const std::string& file, const std::string& group, dou
 
 }  // namespace
 
-void GrainOutput::write(long step, double time, const GrainArrays& grains, const GrainMemory& memory,
-                        MPI_Comm communicator) {
-  const Rows rows = rows_of(grains.owned, communicator);
-  const std::string name = fmt::format("step_{:012d}", step), group = "/" + name + "/grains";
+void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
+  const std::string name = fmt::format("step_{:012d}", snapshot.step), step = "/" + name;
   const std::string file_name = std::filesystem::path(path_).filename().string();
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
   std::string snapshots;
   {
     Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator);
     append_ = true;
     for (const std::string& old : file.names_in("/"))
       if (old.starts_with("step_") && old >= name) file.remove("/" + old);
-    file.create_group("/" + name);
-    file.set_attribute("/" + name, "time_s", time);
-    file.create_group(group);
-    SnapshotWriter writer(file, group, rows);
-    writer.scalars("id", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
-    std::vector<double> radius(grains.radius, grains.radius + grains.owned);
-    writer.scalars("radius", radius);
-    for (double& r : radius) r *= 2;
-    writer.scalars("diameter", radius);
-    writer.vectors("position", grains.position, 3);
-    writer.vectors("velocity", grains.velocity, 3);
-    writer.vectors("angular_velocity", grains.angular_velocity, 3);
-    writer.vectors("force", memory.load, 6);
-    writer.vectors("torque", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
+    file.create_group(step);
+    file.set_attribute(step, "time_s", snapshot.time);
+    write_grains(file, step, snapshot.grains, snapshot.memory, communicator);
+    write_box(file, step, snapshot, rank);
+    if (snapshot.network != nullptr) write_contacts(file, step, *snapshot.network, communicator);
     for (const std::string& each : file.names_in("/")) {
       if (!each.starts_with("step_")) continue;
       const std::string part = "/" + each + "/grains";
@@ -113,17 +163,11 @@ void GrainOutput::write(long step, double time, const GrainArrays& grains, const
         snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, "time_s"), count);
     }
   }
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  if (rank == 0) {
-    const std::filesystem::path target = std::filesystem::path(path_).replace_extension(".xdmf"),
-                                unfinished = target.string() + ".part";
-    std::ofstream(unfinished) << "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "
-                                 "Name=\"grains\" GridType=\"Collection\" CollectionType=\"Temporal\">\n"
-                              << snapshots << "    </Grid>\n  </Domain>\n</Xdmf>\n";
-    std::filesystem::rename(unfinished, target);
-  }
-  MPI_Barrier(communicator);
+  write_text(std::filesystem::path(path_).replace_extension(".xdmf").string(), "output of grains",
+             "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "
+             "Name=\"grains\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
+                 snapshots + "    </Grid>\n  </Domain>\n</Xdmf>\n",
+             communicator);
 }
 
 }  // namespace suffuse::coupling

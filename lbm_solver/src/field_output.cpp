@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
 
 namespace suffuse::lbm {
@@ -109,13 +109,6 @@ std::string xdmf(const std::string& file, const std::vector<Snapshot>& snapshots
   return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
 }
 
-/// Written beside and moved into place, so that a reader never sees half a file.
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  const std::filesystem::path unfinished = path.string() + ".part";
-  std::ofstream(unfinished) << text;
-  std::filesystem::rename(unfinished, path);
-}
-
 }  // namespace
 
 FieldOutput::FieldOutput(const FieldOutputSettings& settings, const Units& units)
@@ -143,10 +136,9 @@ void FieldOutput::write(const Fluid& fluid) {
       if (name.starts_with("step_"))
         snapshots.push_back({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
   }
-  if (d.rank() == 0)
-    write_text(std::filesystem::path(path).replace_extension(".xdmf"),
-               xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()));
-  MPI_Barrier(d.communicator());
+  write_text(std::filesystem::path(path).replace_extension(".xdmf").string(), "output of fields",
+             xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()),
+             d.communicator());
 }
 
 }  // namespace suffuse::lbm

@@ -22,14 +22,15 @@ ComputeSlippingIndex::ComputeSlippingIndex(LAMMPS* lmp_in, int& iarg, int narg, 
 void ComputeSlippingIndex::compute_local() {
   invoked_local = update->ntimestep;
   columns_.clear();
-  for (const Contact& contact : packing().contacts) {
-    if (!contact.counted) continue;
+  const Packing& packing = this->packing();
+  for (const Contact& contact : packing.contacts) {
+    if (!is_counted(packing, contact)) continue;
     const double row[kColumns] = {slipping_index(contact),
                                   mobilised_friction(contact),
                                   normal_force(contact),
                                   tangential_force(contact),
-                                  static_cast<double>(contact.first_id),
-                                  static_cast<double>(contact.second_id)};
+                                  static_cast<double>(first_grain(packing, contact).id),
+                                  static_cast<double>(second_id(packing, contact))};
     columns_.insert(columns_.end(), row, row + kColumns);
   }
   contact_rows_.clear();

@@ -137,7 +137,7 @@ void FixContactSampler::forget_user(LAMMPS* lmp, Compute* compute) {
 }
 
 void FixContactSampler::request(bigint step) {
-  requested_step_ = step;
+  requested_steps_.insert(step);
 }
 
 double FixContactSampler::force_exponent() const {
@@ -184,7 +184,7 @@ void FixContactSampler::setup(int) {
 }
 
 bool FixContactSampler::wanted() const {
-  if (requested_step_ == update->ntimestep) return true;
+  if (requested_steps_.contains(update->ntimestep)) return true;
   if (!users_.empty() && update->ntimestep == update->laststep)
     return true;  // for what a script reads after the run
   return std::any_of(users_.begin(), users_.end(),
@@ -193,11 +193,11 @@ bool FixContactSampler::wanted() const {
 
 void FixContactSampler::post_force(int) {
   if (wanted()) sample();
+  requested_steps_.erase(requested_steps_.begin(), requested_steps_.upper_bound(update->ntimestep));
 }
 
 void FixContactSampler::sample() {
   contacts_.clear();
-  ghost_of_second_.clear();
   by_group_.clear();
   collector_->sweep(*pair_);
   volume_ = domain->xprd * domain->yprd * domain->zprd;
@@ -218,23 +218,20 @@ void FixContactSampler::add_contact(int i, int j, const double* force_on_i) {
 
   Contact contact;
   contact.first = i;
-  contact.second = j < atom->nlocal ? j : kNotOwned;
-  contact.first_id = atom->tag[i];
-  contact.second_id = atom->tag[j];
-  if (contact.second == kNotOwned) {
-    // Listed by both owners; a grain that touches its own image lists both of its sides.
-    const bool own_image = contact.first_id == contact.second_id;
-    const double* b = branch.data();
-    const bool positive_side = b[0] > 0 || (b[0] == 0 && (b[1] > 0 || (b[1] == 0 && b[2] > 0)));
-    contact.counted = own_image ? positive_side : contact.first_id > contact.second_id;
-  }
+  contact.second = j;
   contact.branch = branch;
   contact.force = suffuse::Vec3(force_on_i[0], force_on_i[1], force_on_i[2]);
-  contact.second_radius = atom->radius[j];
   contact.friction =
       friction_[static_cast<std::size_t>((atom->type[i] - 1) * atom->ntypes + atom->type[j] - 1)];
   contacts_.push_back(contact);
-  ghost_of_second_.push_back(j);
+}
+
+/// Listed by both owners; a grain that touches its own image lists both of its sides.
+suffuse::micromechanics::Image FixContactSampler::image_in(const Contact& found) const {
+  const int own = atom->tag[found.first], other = atom->tag[found.second];
+  const double* b = found.branch.data();
+  const bool positive_side = b[0] > 0 || (b[0] == 0 && (b[1] > 0 || (b[1] == 0 && b[2] > 0)));
+  return {other, atom->radius[found.second], own == other ? positive_side : own > other};
 }
 
 const Packing& FixContactSampler::packing(int group_bit) {
@@ -264,13 +261,16 @@ FixContactSampler::GroupPacking& FixContactSampler::group_packing(int group_bit)
     result.packing.grains.push_back(
         {atom->tag[i], atom->radius[i], suffuse::Vec3(atom->x[i][0], atom->x[i][1], atom->x[i][2])});
   }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const int second = ghost_of_second_[c];
-    if ((atom->mask[contacts_[c].first] & group_bit) == 0 || (atom->mask[second] & group_bit) == 0) continue;
-    Contact contact = contacts_[c];
-    contact.first = result.index[static_cast<std::size_t>(contact.first)];
-    if (contact.second != kNotOwned) contact.second = result.index[static_cast<std::size_t>(contact.second)];
-    result.packing.contacts.push_back(contact);
+  for (const Contact& found : contacts_) {
+    if ((atom->mask[found.first] & group_bit) == 0 || (atom->mask[found.second] & group_bit) == 0) continue;
+    Contact contact = found;
+    contact.first = result.index[static_cast<std::size_t>(found.first)];
+    if (found.second < atom->nlocal) {
+      contact.second = result.index[static_cast<std::size_t>(found.second)];
+      result.packing.contacts.push_back(contact);
+    } else {
+      add_image_contact(result.packing, contact, image_in(found));
+    }
   }
   return result;
 }

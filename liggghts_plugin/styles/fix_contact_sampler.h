@@ -11,6 +11,7 @@ FixStyle(contact/sampler, FixContactSampler)
 
 #include <map>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "compute.h"
@@ -48,7 +49,7 @@ class FixContactSampler : public Fix {
   /// To be called by the destructor of a compute that was added.
   static void forget_user(LAMMPS* lmp, Compute* compute);
 
-  /// Sample on this step as well.
+  /// Sample on this step as well; any number of steps may be waiting.
   void request(bigint step);
 
   /// Grains of a group that this rank owns and their contacts with grains of the same group, at the current
@@ -78,20 +79,20 @@ class FixContactSampler : public Fix {
   bool wanted() const;
   void sample();
   void add_contact(int i, int j, const double* force_on_i);
+  suffuse::micromechanics::Image image_in(const suffuse::micromechanics::Contact& found) const;
   GroupPacking& group_packing(int group_bit);
 
   std::unique_ptr<ContactCollector> collector_;
   PairGran* pair_ = nullptr;
   std::vector<Compute*> users_;
-  bigint requested_step_ = -1;
+  std::set<bigint> requested_steps_;
   bigint sampled_step_ = -1;
   double volume_ = 0;
   suffuse::Vec3 box_low_ = suffuse::Vec3::Zero();
   suffuse::Vec3 box_high_ = suffuse::Vec3::Zero();
   std::vector<suffuse::micromechanics::Contact>
-      contacts_;                      // indices are those of LIGGGHTS's atoms, all groups
-  std::vector<int> ghost_of_second_;  // atom index of second, owned or ghost, for its group
-  std::vector<double> friction_;      // coefficient for each pair of types
+      contacts_;                  // indices are those of LIGGGHTS's atoms, ghosts too, all groups
+  std::vector<double> friction_;  // coefficient for each pair of types
   std::map<int, GroupPacking> by_group_;
 };
 

@@ -161,11 +161,11 @@ void FixStressServo::measure_network() {
   std::vector<Vec3> resultant(packing.grains.size(), Vec3::Zero());
   for (const auto& contact : packing.contacts) {
     const auto first = static_cast<std::size_t>(contact.first);
-    const double depth = mm::overlap(contact, packing.grains[first].radius);
+    const double depth = mm::overlap(packing, contact);
     normal_stiffness.push_back(exponent * mm::normal_force(contact) / depth);  // of f ~ depth^exponent
     resultant[first] += contact.force;
-    if (contact.second != mm::kNotOwned) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
-    if (!contact.counted) continue;
+    if (mm::owns_second(contact)) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
+    if (!mm::is_counted(packing, contact)) continue;
     sums[1] += 1;
     sums[3] += contact.force.norm();
   }

@@ -4,13 +4,16 @@
 
 namespace suffuse::micromechanics {
 
+GrainPair pair_of(const Packing& packing, const Contact& contact) {
+  const std::int64_t first = first_grain(packing, contact).id, second = second_id(packing, contact);
+  return {std::min(first, second), std::max(first, second)};
+}
+
 std::vector<GrainPair> contact_pairs(const Packing& packing) {
   std::vector<GrainPair> pairs;
   pairs.reserve(packing.contacts.size());
   for (const Contact& contact : packing.contacts)
-    if (contact.counted)
-      pairs.push_back(
-          {std::min(contact.first_id, contact.second_id), std::max(contact.first_id, contact.second_id)});
+    if (is_counted(packing, contact)) pairs.push_back(pair_of(packing, contact));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

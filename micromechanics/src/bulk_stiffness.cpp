@@ -8,7 +8,8 @@ double stiffness_length_sum(const Packing& packing, std::span<const double> norm
   assert(normal_stiffness.size() == packing.contacts.size());
   double sum = 0;
   for (std::size_t i = 0; i < packing.contacts.size(); ++i)
-    if (packing.contacts[i].counted) sum += normal_stiffness[i] * packing.contacts[i].branch.squaredNorm();
+    if (is_counted(packing, packing.contacts[i]))
+      sum += normal_stiffness[i] * packing.contacts[i].branch.squaredNorm();
   return sum;
 }
 

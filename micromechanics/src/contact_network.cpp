@@ -11,8 +11,14 @@ double tangential_force(const Contact& contact) {
   return (contact.force - contact.force.dot(normal) * normal).norm();
 }
 
-double overlap(const Contact& contact, double first_radius) {
-  return first_radius + contact.second_radius - contact.branch.norm();
+double overlap(const Packing& packing, const Contact& contact) {
+  return first_grain(packing, contact).radius + second_radius(packing, contact) - contact.branch.norm();
+}
+
+void add_image_contact(Packing& packing, Contact contact, const Image& image) {
+  packing.images.push_back(image);
+  contact.second = -static_cast<int>(packing.images.size());
+  packing.contacts.push_back(contact);
 }
 
 }  // namespace suffuse::micromechanics

@@ -19,7 +19,7 @@ std::vector<int> contacts_per_grain(const Packing& packing) {
   std::vector<int> contacts(packing.grains.size(), 0);
   for (const Contact& contact : packing.contacts) {
     ++contacts[static_cast<std::size_t>(contact.first)];
-    if (contact.second != kNotOwned) ++contacts[static_cast<std::size_t>(contact.second)];
+    if (owns_second(contact)) ++contacts[static_cast<std::size_t>(contact.second)];
   }
   return contacts;
 }
@@ -39,9 +39,9 @@ CoordinationSums coordination_sums(const Packing& packing, SizeSplit split) {
     sums.contact_volume += contacts[i] * sphere_volume(radius);
   }
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     const bool first_fine = split.is_fine(packing.grains[static_cast<std::size_t>(contact.first)].radius);
-    const bool second_fine = split.is_fine(contact.second_radius);
+    const bool second_fine = split.is_fine(second_radius(packing, contact));
     sums.contacts += 1;
     sums.coarse_coarse += !first_fine && !second_fine;
     sums.fine_coarse += first_fine != second_fine;

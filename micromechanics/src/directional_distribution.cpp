@@ -97,7 +97,7 @@ PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bi
   for (auto* values : {&result.contacts, &result.normal, &result.tangential})
     values->assign(index(bins), 0.0);
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     const Vec3 normal = contact.branch.normalized();
     double along = normal[axes[0]], across = normal[axes[1]];
     const double in_plane = std::hypot(along, across);

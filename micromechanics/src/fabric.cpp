@@ -33,7 +33,7 @@ void add_angle(OrientationHistogram& histogram, double along_first, double along
 FabricSums fabric_sums(const Packing& packing) {
   FabricSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     const Vec3 normal = contact.branch.normalized();
     sums.contacts += 1;
     sums.normals.add(normal * normal.transpose());

@@ -5,60 +5,54 @@
 namespace suffuse::micromechanics {
 namespace {
 
-struct Density {
-  std::vector<double> values;
-  double beyond = 0;
-};
-
-Density density_of(const std::vector<double>& forces, double mean, const ForceBins& bins) {
-  Density result{std::vector<double>(static_cast<std::size_t>(bins.count), 0.0)};
-  if (mean <= 0) return result;
-  const double one = 1 / static_cast<double>(forces.size());
-  for (const double force : forces) {
-    const double bin = force / mean / bins.width;
-    if (bin < bins.count)
-      result.values[static_cast<std::size_t>(bin)] += one / bins.width;
-    else
-      result.beyond += one;
-  }
-  return result;
+/// Calls `take` with the normal and the tangential force of every contact, N. They are computed in each pass
+/// rather than kept: a long dump has millions.
+template <class Take>
+void for_each_force(const Packing& packing, Take take) {
+  for (const Contact& contact : packing.contacts)
+    if (is_counted(packing, contact)) take(normal_force(contact), tangential_force(contact));
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return values.empty() ? 0 : sum / static_cast<double>(values.size());
+/// Adds one of `count` contacts to a density over its mean; returns its share if it lies beyond the bins.
+double add_to_density(std::vector<double>& density, double force, double mean, double count,
+                      const ForceBins& bins) {
+  if (mean <= 0) return 0;
+  const double bin = force / mean / bins.width;
+  if (!(bin < bins.count)) return 1 / count;
+  density[static_cast<std::size_t>(bin)] += 1 / count / bins.width;
+  return 0;
 }
 
 }  // namespace
 
 ForceDistribution force_distribution(const Packing& packing, const ForceBins& bins) {
-  std::vector<double> normal, tangential;
-  for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
-    normal.push_back(normal_force(contact));
-    tangential.push_back(tangential_force(contact));
-  }
   ForceDistribution result;
-  result.mean_normal = mean_of(normal);
-  result.mean_tangential = mean_of(tangential);
-  Density n = density_of(normal, result.mean_normal, bins);
-  Density t = density_of(tangential, result.mean_tangential, bins);
-  result.normal = std::move(n.values);
-  result.tangential = std::move(t.values);
-  result.normal_beyond = n.beyond;
-  result.tangential_beyond = t.beyond;
-  if (result.mean_normal <= 0) return result;
+  result.normal.assign(static_cast<std::size_t>(bins.count), 0.0);
+  result.tangential = result.normal;
+  double count = 0;
+  for_each_force(packing, [&](double normal, double tangential) {
+    count += 1;
+    result.mean_normal += normal;
+    result.mean_tangential += tangential;
+  });
+  if (count == 0) return result;
+  result.mean_normal /= count;
+  result.mean_tangential /= count;
   double strong = 0, excess = 0, squares = 0;
-  for (const double force : normal) {
-    const double f = force / result.mean_normal;
+  for_each_force(packing, [&](double normal, double tangential) {
+    result.normal_beyond += add_to_density(result.normal, normal, result.mean_normal, count, bins);
+    result.tangential_beyond +=
+        add_to_density(result.tangential, tangential, result.mean_tangential, count, bins);
+    if (result.mean_normal <= 0) return;
+    const double f = normal / result.mean_normal;
     squares += (f - 1) * (f - 1);
-    if (f <= 1) continue;
+    if (f <= 1) return;
     strong += 1;
     excess += f - 1;
-  }
+  });
+  if (result.mean_normal <= 0) return result;
   if (excess > 0) result.tail_exponent = strong / excess;
-  result.coefficient_of_variation = std::sqrt(squares / static_cast<double>(normal.size()));
+  result.coefficient_of_variation = std::sqrt(squares / count);
   return result;
 }
 

@@ -54,7 +54,7 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
     });
   }
   for (const Contact& contact : packing.contacts) {
-    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
     if (!layer) continue;
     for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
       networks[k].contacts += 1;
@@ -72,7 +72,7 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
     network.constraint_ratio = constraint_ratio(mean, network.sliding_share).mean;
   }
   for (const Contact& contact : packing.contacts) {
-    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
     if (!layer) continue;
     for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
       const double threshold = strong.empty() ? networks[k].mean_normal_force : strong[k];
@@ -86,9 +86,9 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
 LayerReference::LayerReference(const Packing& packing, const HeightLayers& layers)
     : layers_(layers), contacts_(static_cast<std::size_t>(layers.layers) + 1) {
   for (const Contact& contact : packing.contacts) {
-    const auto layer = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
     if (!layer) continue;
-    const auto [low, high] = std::minmax(contact.first_id, contact.second_id);
+    const auto [low, high] = pair_of(packing, contact);
     layer_of_pair_.emplace(GrainPair{low, high}, *layer);
     for_layer_and_all(*layer, layers.layers, [&](std::size_t k) { contacts_[k] += 1; });
   }
@@ -98,10 +98,10 @@ std::vector<BrokenContacts> LayerReference::broken(const Packing& packing) const
   std::vector<BrokenSums> sums(contacts_.size());
   std::map<GrainPair, int> unseen = layer_of_pair_;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     if (const auto layer = layers_.of(packing, contact))
       for_layer_and_all(*layer, layers_.layers, [&](std::size_t k) { sums[k].current += 1; });
-    const auto [low, high] = std::minmax(contact.first_id, contact.second_id);
+    const auto [low, high] = pair_of(packing, contact);
     const auto reference = unseen.find(GrainPair{low, high});
     if (reference == unseen.end()) continue;
     for_layer_and_all(reference->second, layers_.layers, [&](std::size_t k) { sums[k].kept += 1; });
@@ -149,7 +149,7 @@ SlippingShares slipping_distribution(const Packing& packing, const HeightLayers&
                                      std::optional<int> layer, const SlidingRule& rule) {
   SlippingShares shares{};
   for (const Contact& contact : packing.contacts) {
-    const auto own = contact.counted ? layers.of(packing, contact) : std::nullopt;
+    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
     if (!own || (layer && *own != *layer)) continue;
     const auto bin = static_cast<std::size_t>(std::clamp(10 * slipping_index(contact), 0.0, 9.0));
     shares[is_sliding(contact, rule) ? shares.size() - 1 : bin] += 1;

@@ -5,11 +5,11 @@ namespace suffuse::micromechanics {
 LoadShareSums load_share_sums(const Packing& packing, SizeSplit split) {
   LoadShareSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     const double trace = contact.branch.dot(contact.force);
     const int fines =
         static_cast<int>(split.is_fine(packing.grains[static_cast<std::size_t>(contact.first)].radius)) +
-        static_cast<int>(split.is_fine(contact.second_radius));
+        static_cast<int>(split.is_fine(second_radius(packing, contact)));
     (fines == 0 ? sums.coarse_coarse : fines == 1 ? sums.fine_coarse : sums.fine_fine) += trace;
   }
   return sums;

@@ -1,5 +1,7 @@
 #include "suffuse/micromechanics/rattlers.h"
 
+#include <cstdint>
+
 namespace suffuse::micromechanics {
 namespace {
 
@@ -9,7 +11,7 @@ std::size_t index(int i) {
 
 /// For each grain where its row of neighbours begins, and all rows one after the other.
 struct Neighbours {
-  std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> begin;
   std::vector<int> grain;
 };
 
@@ -18,16 +20,16 @@ Neighbours neighbours_of(const Packing& packing) {
   result.begin.assign(packing.grains.size() + 1, 0);
   const auto each_end = [&](const auto& visit) {
     for (const Contact& c : packing.contacts) {
-      if (c.second == kNotOwned) continue;
+      if (!owns_second(c)) continue;
       visit(c.first, c.second);
       visit(c.second, c.first);
     }
   };
-  each_end([&](int from, int) { ++result.begin[index(from) + 1]; });
+  each_end([&](int from, int) { ++result.begin[index(from)]; });
   for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
   result.grain.resize(result.begin.back());
-  std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
-  each_end([&](int from, int to) { result.grain[next[index(from)]++] = to; });
+  // Where a row ends becomes where it begins.
+  each_end([&](int from, int to) { result.grain[--result.begin[index(from)]] = to; });
   return result;
 }
 

@@ -20,7 +20,7 @@ bool is_sliding(const Contact& contact, const SlidingRule& rule) {
 SlidingSums sliding_sums(const Packing& packing, const SlidingRule& rule) {
   SlidingSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     sums.contacts += 1;
     sums.sliding += is_sliding(contact, rule);
     sums.slipping_index += slipping_index(contact);

@@ -15,23 +15,27 @@ double arm_length(double radius, double overlap_length, double distance, GrainAr
 TensorSum stress_times_volume(const Packing& packing) {
   TensorSum sum;
   for (const Contact& contact : packing.contacts)
-    if (contact.counted) sum.add(contact.branch * contact.force.transpose());
+    if (is_counted(packing, contact)) sum.add(contact.branch * contact.force.transpose());
   return sum;
+}
+
+void for_each_grain_stress(const Packing& packing, GrainArm arm,
+                           const std::function<void(int grain, const Mat3& stress_times_volume)>& take) {
+  for (const Contact& contact : packing.contacts) {
+    const double distance = contact.branch.norm();
+    const double overlap_length = overlap(packing, contact);
+    const Mat3 unit = contact.branch / distance * contact.force.transpose();
+    take(contact.first,
+         arm_length(first_grain(packing, contact).radius, overlap_length, distance, arm) * unit);
+    if (owns_second(contact))
+      take(contact.second, arm_length(second_radius(packing, contact), overlap_length, distance, arm) * unit);
+  }
 }
 
 std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm) {
   std::vector<Mat3> stress(packing.grains.size(), Mat3::Zero());
-  for (const Contact& contact : packing.contacts) {
-    const double distance = contact.branch.norm();
-    const double first_radius = packing.grains[static_cast<std::size_t>(contact.first)].radius;
-    const double overlap_length = overlap(contact, first_radius);
-    const Mat3 unit = contact.branch / distance * contact.force.transpose();
-    stress[static_cast<std::size_t>(contact.first)] +=
-        arm_length(first_radius, overlap_length, distance, arm) * unit;
-    if (contact.second != kNotOwned)
-      stress[static_cast<std::size_t>(contact.second)] +=
-          arm_length(contact.second_radius, overlap_length, distance, arm) * unit;
-  }
+  for_each_grain_stress(
+      packing, arm, [&](int grain, const Mat3& part) { stress[static_cast<std::size_t>(grain)] += part; });
   return stress;
 }
 

@@ -6,15 +6,14 @@ namespace suffuse::micromechanics {
 
 StressReductionSums stress_reduction_sums(const Packing& packing, SizeSplit split, GrainArm arm) {
   StressReductionSums sums;
-  const std::vector<Mat3> stress = grain_stress_times_volume(packing, arm);
-  for (std::size_t i = 0; i < packing.grains.size(); ++i) {
-    const double radius = packing.grains[i].radius;
-    sums.solid_volume += sphere_volume(radius);
-    sums.all_stress.add(stress[i]);
-    if (!split.is_fine(radius)) continue;
-    sums.fines_volume += sphere_volume(radius);
-    sums.fines_stress.add(stress[i]);
+  for (const Grain& grain : packing.grains) {
+    sums.solid_volume += sphere_volume(grain.radius);
+    if (split.is_fine(grain.radius)) sums.fines_volume += sphere_volume(grain.radius);
   }
+  for_each_grain_stress(packing, arm, [&](int grain, const Mat3& stress) {
+    sums.all_stress.add(stress);
+    if (split.is_fine(packing.grains[static_cast<std::size_t>(grain)].radius)) sums.fines_stress.add(stress);
+  });
   return sums;
 }
 

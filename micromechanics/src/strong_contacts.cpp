@@ -10,7 +10,7 @@ namespace suffuse::micromechanics {
 NormalForceSums normal_force_sums(const Packing& packing) {
   NormalForceSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     sums.contacts += 1;
     sums.normal_force += normal_force(contact);
   }
@@ -24,7 +24,7 @@ double mean_normal_force(const NormalForceSums& sums) {
 StrongSums strong_sums(const Packing& packing, double threshold) {
   StrongSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!contact.counted) continue;
+    if (!is_counted(packing, contact)) continue;
     const Mat3 term = contact.branch * contact.force.transpose();
     sums.contacts += 1;
     sums.stress.add(term);

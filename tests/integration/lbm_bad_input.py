@@ -86,6 +86,7 @@ CASES = [
     (WET + "lbm monitor m every 1e-3 file m.csv bed\nlbm monitor n every 1e-3 file ./m.csv mass\n", ["m.csv", "lbm monitor m"]),
     (WET + "lbm output o every 1e-3 file o.h5 grains\nlbm output p every 1e-3 file o_grains.h5\n", ["o_grains.h5", "lbm output o"]),
     (WET + "lbm output o every 1e-3 file o.h5\nlbm restart write o.h5 every 1e-3\n", ["o.h5", "lbm output o"]),
+    (WET + "lbm output o every 1e-3 file o.h5 contact\n", ["contact", "grains, contacts"]),
     (WET + "lbm output o every 1e-3 file o.xdmf\n", ["o.xdmf", "be the HDF5 file"]),
     (WET + "lbm output o every 1e-3 file o.h5 velocity velocity\n", ["velocity = given twice"]),
     (WET + "lbm output o every 1e-3 file nowhere/o.h5\n" + RUN, ["nowhere/o.h5", "writable"]),

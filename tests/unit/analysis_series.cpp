@@ -11,8 +11,8 @@
 #include "hand_packings.h"
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/analysis/safe_file.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 
 using namespace suffuse;
 using namespace suffuse::analysis;
@@ -88,8 +88,9 @@ std::string contacts_text(const Packing& packing, long step) {
     const auto at = [&](int grain) {
       return vector_text(packing.grains[static_cast<std::size_t>(grain)].position);
     };
-    text += fmt::format("{} {} {} {} 1 {} {} {}\n", at(c.first), at(c.second), c.first_id, c.second_id,
-                        vector_text(c.force), vector_text(push), vector_text(c.force - push));
+    text += fmt::format("{} {} {} {} 1 {} {} {}\n", at(c.first), at(c.second), first_grain(packing, c).id,
+                        second_id(packing, c), vector_text(c.force), vector_text(push),
+                        vector_text(c.force - push));
   }
   return text;
 }

@@ -142,9 +142,25 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
   memory.load = load.data();
   const std::string path = "coupling_sums_grains_" + std::to_string(ranks) + ".h5";
   GrainOutput output(path, false);
-  output.write(5, 0.5, arrays, memory, MPI_COMM_WORLD);
-  output.write(7, 0.7, arrays, memory, MPI_COMM_WORLD);
-  output.write(7, 0.7, arrays, memory, MPI_COMM_WORLD);  // again: replaced
+  GrainSnapshot snapshot{5, 0.5, arrays, memory, Vec3(0, -1, -2), Vec3(1, 2, 3), {true, false, true}};
+  output.write(snapshot, MPI_COMM_WORLD);
+  // As many contacts as grains, each with a second listing that does not count.
+  micromechanics::Packing network;
+  for (int n = 0; n < 2 * owned; ++n) {
+    if (n < owned) network.grains.push_back({rank * 100 + n, 1, Vec3::Zero()});
+    const std::int64_t own = rank * 100 + n / 2;
+    micromechanics::Contact contact;
+    contact.first = n / 2;
+    contact.force = Vec3(1, 2, 3) * static_cast<double>(own);
+    contact.branch = -contact.force;
+    contact.friction = 0.25;
+    add_image_contact(network, contact, {own + (n % 2 == 0 ? 1000 : 2000), 1, n % 2 == 0});
+  }
+  snapshot.step = 7;
+  snapshot.time = 0.7;
+  snapshot.network = &network;
+  output.write(snapshot, MPI_COMM_WORLD);
+  output.write(snapshot, MPI_COMM_WORLD);  // again: replaced
   const Hdf5File file(path, Hdf5File::Mode::read, MPI_COMM_WORLD);
   CHECK(file.names_in("/").size() == 2);
   const std::string group = "/step_000000000007/grains";
@@ -158,4 +174,23 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
     CHECK(diameter[n] == Approx(2e-3 * (static_cast<double>(ids[n]) + 1)).epsilon(1e-15));
   }
   CHECK(file.number_attribute("/step_000000000007", "time_s") == 0.7);
+
+  const std::string contacts = "/step_000000000007/contacts";
+  CHECK_FALSE(file.exists("/step_000000000005/contacts"));
+  REQUIRE(file.extents(contacts + "/friction") == std::vector<std::size_t>{all});
+  const auto pairs = file.read<std::int64_t>(contacts + "/ids", {{all, 2}, {0, 0}, {all, 2}});
+  const auto force = file.read<double>(contacts + "/force", {{all, 3}, {0, 0}, {all, 3}});
+  const auto branch = file.read<double>(contacts + "/branch", {{all, 3}, {0, 0}, {all, 3}});
+  for (std::size_t n = 0; n < all; ++n) {
+    CHECK(pairs[2 * n] == ids[n]);  // in the order of the ranks, as the grains
+    CHECK(pairs[2 * n + 1] == ids[n] + 1000);
+    CHECK(force[3 * n + 2] == 3. * static_cast<double>(ids[n]));
+    CHECK(branch[3 * n + 1] == -2. * static_cast<double>(ids[n]));
+  }
+  for (const char* step : {"/step_000000000005", "/step_000000000007"}) {
+    CHECK(file.read<double>(std::string(step) + "/box", {{2, 3}, {0, 0}, {2, 3}}) ==
+          std::vector<double>{0, -1, -2, 1, 2, 3});
+    CHECK(file.read<std::uint8_t>(std::string(step) + "/periodic", {{3}, {0}, {3}}) ==
+          std::vector<std::uint8_t>{1, 0, 1});
+  }
 }

@@ -32,7 +32,7 @@ inline void add_periodic_contacts(Packing& packing, const Vec3& period, const Fo
         branch[axis] -= period[axis] * std::round(branch[axis] / period[axis]);
       // Lattice neighbours touch at exactly r1 + r2 up to rounding.
       if (branch.norm() > (a.radius + b.radius) * (1 + 1e-9)) continue;
-      packing.contacts.push_back({i, j, true, a.id, b.id, branch, force(branch), b.radius, friction});
+      packing.contacts.push_back({i, j, branch, force(branch), friction});
     }
 }
 
@@ -86,18 +86,18 @@ inline std::vector<Packing> shared_out(const Packing& whole, int ranks) {
                second = static_cast<std::size_t>(contact.second);
     Contact listed = contact;
     listed.first = local[first];
-    listed.second = first % parts.size() == second % parts.size() ? local[second] : kNotOwned;
-    parts[first % parts.size()].contacts.push_back(listed);
-    if (listed.second != kNotOwned) continue;
+    if (first % parts.size() == second % parts.size()) {
+      listed.second = local[second];
+      parts[first % parts.size()].contacts.push_back(listed);
+      continue;
+    }
+    const Grain &one = whole.grains[first], &two = whole.grains[second];
+    add_image_contact(parts[first % parts.size()], listed, {two.id, two.radius, true});
     Contact other = contact;
     other.first = local[second];
-    other.second = kNotOwned;
-    other.counted = false;
-    std::swap(other.first_id, other.second_id);
     other.branch = -contact.branch;
     other.force = -contact.force;
-    other.second_radius = whole.grains[first].radius;
-    parts[second % parts.size()].contacts.push_back(other);
+    add_image_contact(parts[second % parts.size()], other, {one.id, one.radius, false});
   }
   return parts;
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "lbm_test_tools.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -86,6 +87,24 @@ TEST_CASE("a saved fluid goes on bit for bit, on another number of ranks and fro
       CHECK(differences(again, shared) == 0);
       CHECK_FALSE(std::filesystem::exists(path.string() + ".part"));
     }
+}
+
+TEST_CASE("a text that cannot be written is one error, the same on all ranks, and leaves nothing") {
+  const std::filesystem::path path = folder() / "words.txt";
+  write_text(path.string(), "test", "words", MPI_COMM_WORLD);
+  CHECK(std::filesystem::file_size(path) == 5);
+  CHECK_FALSE(std::filesystem::exists(path.string() + ".part"));
+  CHECK_THROWS_WITH(
+      write_text((folder() / "nowhere" / "words.txt").string(), "test", "words", MPI_COMM_WORLD),
+      Catch::Contains("test: file") && Catch::Contains("be writable"));
+  // A device that is always full.
+  if (std::filesystem::exists("/dev/full")) {
+    std::error_code ignored;
+    std::filesystem::create_symlink("/dev/full", folder() / "full.txt.part", ignored);
+    CHECK_THROWS_WITH(write_text((folder() / "full.txt").string(), "test", "words", MPI_COMM_WORLD),
+                      Catch::Contains("is the disk full"));
+    CHECK_FALSE(std::filesystem::exists(folder() / "full.txt"));
+  }
 }
 
 TEST_CASE("a state of another size or storage type is refused") {

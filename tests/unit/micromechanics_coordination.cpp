@@ -24,8 +24,7 @@ Packing two_sizes() {
     const double reach = packing.grains[static_cast<std::size_t>(i)].radius +
                          packing.grains[static_cast<std::size_t>(j)].radius;
     const Vec3 branch(reach, 0, 0);
-    packing.contacts.push_back({i, j, true, i + 1, j + 1, branch, Vec3(1, 0, 0),
-                                packing.grains[static_cast<std::size_t>(j)].radius, 0.3});
+    packing.contacts.push_back({i, j, branch, Vec3(1, 0, 0), 0.3});
   }
   return packing;
 }
@@ -98,8 +97,8 @@ TEST_CASE("a grain between its own periodic images has two contacts and stands i
   Packing packing;
   packing.grains.push_back(grain(1, 0.5, Vec3(0.5, 0.5, 0.5)));
   packing.volume = 1;
-  packing.contacts.push_back({0, kNotOwned, true, 1, 1, Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5, 0.3});
-  packing.contacts.push_back({0, kNotOwned, false, 1, 1, Vec3(-1, 0, 0), Vec3(-1, 0, 0), 0.5, 0.3});
+  add_image_contact(packing, {0, 0, Vec3(1, 0, 0), Vec3(1, 0, 0), 0.3}, {1, 0.5, true});
+  add_image_contact(packing, {0, 0, Vec3(-1, 0, 0), Vec3(-1, 0, 0), 0.3}, {1, 0.5, false});
   const CoordinationSums sums = coordination_sums(packing, {});
   CHECK(sums.contacts == 1);
   CHECK(contacts_per_grain(packing)[0] == 2);

@@ -15,8 +15,6 @@ Packing stack() {
     Contact contact;
     contact.first = k;
     contact.second = k + 1;
-    contact.first_id = k + 1;
-    contact.second_id = k + 2;
     contact.branch = suffuse::Vec3(0, 0, -1e-3);
     contact.force = suffuse::Vec3(k == 0 ? 0.3 * (4 - k) : 0, 0, -(4.0 - k));
     contact.friction = 0.3;

@@ -57,7 +57,7 @@ TEST_CASE("stress is positive in compression and its first index is the branch's
   Packing packing;
   packing.grains = {grain(1, 1, Vec3(0, 0, 2)), grain(2, 1, Vec3(0, 0, 0))};
   packing.volume = 8;
-  packing.contacts.push_back({0, 1, true, 1, 2, Vec3(0, 0, 2), Vec3(0.5, 0, 3), 1, 0.3});
+  packing.contacts.push_back({0, 1, Vec3(0, 0, 2), Vec3(0.5, 0, 3), 0.3});
   const Mat3 stress = stress_times_volume(packing).matrix() / 8;
   CHECK(stress(2, 2) == Approx(0.75));
   CHECK(stress(2, 0) == Approx(0.125));
@@ -91,7 +91,7 @@ TEST_CASE("a grain's arm ends at the contact point, or at half of the branch") {
   Packing packing;
   packing.grains = {grain(1, 3, Vec3(0, 0, 0)), grain(2, 1, Vec3(3.8, 0, 0))};
   packing.volume = 1;
-  packing.contacts.push_back({0, 1, true, 1, 2, Vec3(-3.8, 0, 0), Vec3(-10, 0, 0), 1, 0.3});  // overlap 0.2
+  packing.contacts.push_back({0, 1, Vec3(-3.8, 0, 0), Vec3(-10, 0, 0), 0.3});  // overlap 0.2
   const auto point = grain_stress_times_volume(packing, GrainArm::contact_point);
   CHECK(point[0](0, 0) == Approx(29));
   CHECK(point[1](0, 0) == Approx(9));

@@ -114,6 +114,16 @@ def check_reproduce(program):
     check(float(rows["coordination_number"]["measured"]) == 6 and rows["coordination_number"]["thesis"] == "4.317", f"{rows}")
     check(rows["kenney_lau_ratio"]["thesis"] == "" and rows["alpha_pair_halves"]["measured"] == "", "a number where there is none")
     program.must_refuse(["reproduce", "table-5-1", "a"], "table-5-1", "no folder")
+    # A second sample, of another row: both, each with its own numbers of the thesis, and none of the others.
+    (folder / "more" / "b").mkdir(parents=True)
+    for name in ("grains.dump", "contacts.dump"):
+        (folder / "more" / "b" / name).write_text((folder / "a" / name).read_text())
+    (folder / "more" / "b" / "sample.toml").write_text('table_4_1 = "11a"\nstate = "dense"\nsplit_m = 1e-4\n')
+    out = program.must_run("reproduce", "table-4-1", "a", "more", "--output", "two.csv")
+    check("1 loose" in out and "11a dense" in out and "2 of 63 rows" in out, out)
+    two = {(row["sample"], row["state"], row["quantity"]): row["thesis"] for row in csv.DictReader(open(folder / "two.csv"))}
+    check({key[:2] for key in two} == {("1", "loose"), ("11a", "dense")}, f"{sorted(two)}")
+    check([two[sample + ("coordination_number",)] for sample in (("1", "loose"), ("11a", "dense"))] == ["4.317", "0.082"], f"{two}")
     for text, words in (('table_4_1 = "99"\nstate = "loose"\n', ("99", "sample of the table")), ('table_4_1 = "1"\n', ("state",)),
                         ('table_4_1 = "1"\nstate = "soft"\n', ("soft", "loose, medium or dense")), ('table_4_1 = "1\n', ("sample.toml", "line 1")),
                         ('table_4_1 = "1"\nfriction_compression = 0.2\n', ("0.2",)), ('tabel = "1"\n', ("tabel", "table_4_1")),

@@ -15,6 +15,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+import fluidisation_series as bed  # noqa: E402
+
 COARSE, FINE = 0.5e-3, 0.05e-3  # radii, m
 SIDE = 3
 VOID_ELEMENTS = {"meta", "img"}
@@ -198,6 +201,29 @@ def check_page(program, gradings, figures, python):
     check("<img" not in (program.folder / "bare.html").read_text(encoding="utf-8"), "--no-figures leaves figures out")
 
 
+def check_flow(program, gradings, figures, python):
+    """A run with upward flow in the report: what `fluidisation` finds, and two figures that their commands draw again."""
+    (program.folder / "ramp.csv").write_text(bed.text(bed.rows(bed.ramp())))
+    words = (gradings / "appendix_C.csv", "--flow", "ramp.csv")
+    report = program.must_run(*words)
+    found = {cells[1].strip(): cells[2].strip() for cells in (line.split("|") for line in report.split("## Upward flow")[1].splitlines()) if len(cells) > 5}
+    # Known of the series to round-off; four digits are printed.
+    check(found["critical gradient, Terzaghi"] == f"{bed.BED_CRITICAL:.4g}" and found["conductivity, measured"] == f"{bed.BED_CONDUCTIVITY:.4g}", f"{found}")
+    check("Upward flow" not in program.must_run(gradings / "appendix_C.csv"), "no flow where there is none")
+    if python:
+        program.must_run(*words, "--output", "flow.md", "--figures", "flowing")
+        markdown = (program.folder / "flow.md").read_text(encoding="utf-8")
+        for name in ("flow", "layers"):
+            command = re.search(rf"`analysis/figures/(\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
+            again = [python, figures / command[0], *command[1:-1], "again.svg"]
+            done = subprocess.run(again, cwd=program.folder / "flowing", capture_output=True, text=True, timeout=120)
+            check(done.returncode == 0, f"{again}: {done.stderr}")
+            check((program.folder / "flowing/again.svg").read_bytes() == (program.folder / f"flowing/{name}.svg").read_bytes(), f"{name}: the same figure again")
+    (program.folder / "no_flow.csv").write_text("time_s,grains\n0,1\n1,1\n")
+    program.must_refuse((gradings / "appendix_C.csv", "--flow", "no_flow.csv"), "no_flow.csv", "column")
+    program.must_refuse((gradings / "appendix_C.csv", "--flow", "nowhere.csv"), "nowhere.csv")
+
+
 def check_example(program, gradings, documents):
     """The report in the documentation is what its command gives."""
     page = (documents / "verdict.md").read_text(encoding="utf-8")
@@ -260,6 +286,7 @@ def main():
         if python:
             check_page(program, gradings, options.figures.resolve(), python)
             check_layers(program, options.figures.resolve(), python)
+        check_flow(program, gradings, options.figures.resolve(), python)
         check_mistakes(program, gradings)
     print("analyse_verdict: in order" + ("" if python else "; no matplotlib, no figures"))
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "suffuse/analysis/contact_measures.h"
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
 

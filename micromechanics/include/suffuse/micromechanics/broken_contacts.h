@@ -17,6 +17,9 @@ struct GrainPair {
   auto operator<=>(const GrainPair&) const = default;
 };
 
+/// The two grains of a contact, the lower identifier first.
+GrainPair pair_of(const Packing& packing, const Contact& contact);
+
 /// Pairs of the contacts that this rank counts, sorted. A pair that touches twice (across a small periodic
 /// box) is listed twice.
 std::vector<GrainPair> contact_pairs(const Packing& packing);

@@ -7,24 +7,29 @@
 
 namespace suffuse::micromechanics {
 
-/// Index of a contact's second grain when that grain is owned by another rank or is a periodic image.
+/// In an index of grains: that grain is owned by another rank, or not in the group.
 inline constexpr int kNotOwned = -1;
 
 /// One contact as seen from an owned grain.
 ///
 /// A contact between two owned grains is listed once. A contact between an owned grain and an image (another
 /// rank's grain, or a periodic image) is listed once for each owner, so that sums over a grain's own contacts
-/// need no communication; of those listings exactly one, over all ranks, has `counted` set.
+/// need no communication; of those listings exactly one, over all ranks, counts (is_counted).
+///
+/// 64 bytes: a dump of 1 GB has six million of them.
 struct Contact {
-  int first = 0;              ///< index into Packing::grains
-  int second = kNotOwned;     ///< index into Packing::grains, or kNotOwned
-  bool counted = true;        ///< this listing stands for the contact in sums over contacts
-  std::int64_t first_id = 0;  ///< grain identifiers, unique over all ranks
-  std::int64_t second_id = 0;
+  int first = 0;               ///< index into Packing::grains
+  int second = 0;              ///< index into Packing::grains; negative: -1 - index into Packing::images
   Vec3 branch = Vec3::Zero();  ///< centre of second to centre of first, nearest image, m
   Vec3 force = Vec3::Zero();   ///< contact force on first, N
-  double second_radius = 0;    ///< m
   double friction = 0;         ///< Coulomb coefficient of the pair, dimensionless
+};
+
+/// The second grain of one listing that this rank does not own, or of which it is a periodic image.
+struct Image {
+  std::int64_t id = 0;  ///< identifier of the grain, unique over all ranks
+  double radius = 0;    ///< m
+  bool counted = true;  ///< this listing stands for the contact in sums over contacts
 };
 
 /// A grain that this rank owns.
@@ -38,11 +43,46 @@ struct Grain {
 struct Packing {
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
+  std::vector<Image> images;
   double volume = 0;  ///< of the whole sample, voids included, over all ranks; m³
   Vec3 box_low =
       Vec3::Zero();  ///< corners of the box at the time of the contacts, m: a servo moves them within a
   Vec3 box_high = Vec3::Zero();  ///< step, after the forces
 };
+
+/// Is the second grain one of Packing::grains?
+inline bool owns_second(const Contact& contact) {
+  return contact.second >= 0;
+}
+
+/// The image in a contact whose second grain is none of Packing::grains.
+inline const Image& image_of(const Packing& packing, const Contact& contact) {
+  return packing.images[static_cast<std::size_t>(-1 - contact.second)];
+}
+
+/// Does this listing stand for the contact in sums over contacts?
+inline bool is_counted(const Packing& packing, const Contact& contact) {
+  return owns_second(contact) || image_of(packing, contact).counted;
+}
+
+inline const Grain& first_grain(const Packing& packing, const Contact& contact) {
+  return packing.grains[static_cast<std::size_t>(contact.first)];
+}
+
+/// Radius of the second grain, m.
+inline double second_radius(const Packing& packing, const Contact& contact) {
+  return owns_second(contact) ? packing.grains[static_cast<std::size_t>(contact.second)].radius
+                              : image_of(packing, contact).radius;
+}
+
+/// Identifier of the second grain.
+inline std::int64_t second_id(const Packing& packing, const Contact& contact) {
+  return owns_second(contact) ? packing.grains[static_cast<std::size_t>(contact.second)].id
+                              : image_of(packing, contact).id;
+}
+
+/// Lists a contact of an owned grain with an image; contact.second is set here.
+void add_image_contact(Packing& packing, Contact contact, const Image& image);
 
 /// Magnitude of the normal force, |f·n|, N.
 double normal_force(const Contact& contact);
@@ -50,7 +90,7 @@ double normal_force(const Contact& contact);
 /// Magnitude of the tangential force, |f − (f·n)n|, N.
 double tangential_force(const Contact& contact);
 
-/// Overlap of the two spheres, r₁ + r₂ − |branch|, m; `first_radius` in m.
-double overlap(const Contact& contact, double first_radius);
+/// Overlap of the two spheres, r₁ + r₂ − |branch|, m.
+double overlap(const Packing& packing, const Contact& contact);
 
 }  // namespace suffuse::micromechanics

@@ -9,7 +9,7 @@ namespace suffuse::micromechanics {
 /// For each grain whether it takes part in the force network: grains with fewer than `minimum` contacts are
 /// taken away with their contacts, again and again, until none is left (`thornton2000` takes away those with
 /// 0 and 1 once). `minimum`: 2 with friction, 4 without. A whole packing, all of whose contacts have both
-/// grains in it; a contact with kNotOwned counts for its first grain and is never taken away from it.
+/// grains in it; a contact with an image counts for its first grain and is never taken away from it.
 std::vector<bool> load_bearing(const Packing& packing, int minimum);
 
 /// Grains outside the force network.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "suffuse/micromechanics/contact_network.h"
@@ -21,6 +22,11 @@ TensorSum stress_times_volume(const Packing& packing);
 /// grains of all ranks equals the sum over contacts, for either arm, if both ends of each contact belong to
 /// the packing.
 std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm);
+
+/// The same contact by contact, for sums that need no value a grain: calls `take` with the index of an owned
+/// grain and what a contact adds to its V_p σ^p.
+void for_each_grain_stress(const Packing& packing, GrainArm arm,
+                           const std::function<void(int grain, const Mat3& stress_times_volume)>& take);
 
 /// p' = (σ_xx + σ_yy + σ_zz)/3, compression positive (thesis eq 5.1).
 double mean_stress(const Mat3& stress);

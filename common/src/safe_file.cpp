@@ -1,11 +1,11 @@
-#include "suffuse/analysis/safe_file.h"
+#include "suffuse/common/safe_file.h"
 
 #include <filesystem>
 #include <system_error>
 
 #include "suffuse/common/error.h"
 
-namespace suffuse::analysis {
+namespace suffuse {
 
 SafeFile::SafeFile(std::string path, std::string who)
     : path_(std::move(path)), part_(path_ + ".part"), who_(std::move(who)) {
@@ -36,4 +36,4 @@ void SafeFile::commit() {
   committed_ = true;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse

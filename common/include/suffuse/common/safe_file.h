@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace suffuse::analysis {
+namespace suffuse {
 
 /// A text file that appears under its name only when it is complete: what is written goes to `PATH.part`,
 /// commit() renames it, and without commit() (an error on the way) it is removed.
@@ -27,4 +27,4 @@ class SafeFile {
   bool committed_ = false;
 };
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse
