@@ -28,7 +28,7 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
     case lbm::SolidOperator::force:
       return {1.87, 2.83, 10.2, 65.5};
     case lbm::SolidOperator::sc3:
-      return {0.64, 5.3, 6.34, 44.5};
+      return {0.64, 2.43, 7.36, 30.4};
     default:
       throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
                         "give a number, or change the operator"});
