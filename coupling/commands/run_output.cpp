@@ -44,12 +44,17 @@ std::string grains_file(const std::string& file) {
 }  // namespace
 
 /// Both files are written beside the old ones, which they replace when they are whole.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file) {
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
+                      const MonitorReferences& references, const std::string& file) {
   const std::string fresh = file + ".new";
   require_writable("lbm restart write", fresh, lmp->world);
   lbm::save_state(simulation.fluid(), fresh);
-  Hdf5File(fresh, Hdf5File::Mode::append, lmp->world)
-      .set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+  {
+    Hdf5File state(fresh, Hdf5File::Mode::append, lmp->world);
+    state.set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+    save_settings(state, simulation);
+    save_references(state, references, lmp->world);
+  }
   std::string grains = fresh + ".grains";
   LAMMPS_NS::WriteRestart(lmp).write(grains.data());
   MPI_Barrier(lmp->world);
@@ -78,7 +83,8 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
   for (const MonitorRequest& request : settings.monitors)
     if (std::none_of(monitors_.begin(), monitors_.end(),
                      [&](const auto& open) { return open->request().id == request.id; }))
-      monitors_.push_back(std::make_unique<Monitor>(request, lmp, port, simulation, continue_after));
+      monitors_.push_back(
+          std::make_unique<Monitor>(request, lmp, port, simulation, continue_after, references_));
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
@@ -136,9 +142,20 @@ void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulat
     fields->grains->write(step, simulation.time_si(), grains, port.memory(),
                           simulation.fluid().decomposition().communicator());
   }
-  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0)
-    write_checkpoint(lmp, simulation, checkpoint_->file);
+  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, simulation);
   started_ = true;
+}
+
+std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const {
+  if (!checkpoint_) return {};
+  write_checkpoint(lmp, simulation, references(), checkpoint_->file);
+  return checkpoint_->file;
+}
+
+MonitorReferences RunOutput::references() const {
+  MonitorReferences all;
+  for (const auto& monitor : monitors_) monitor->add_references(all);
+  return all;
 }
 
 }  // namespace suffuse::coupling

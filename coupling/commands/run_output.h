@@ -3,9 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
+#include "checkpoint_contents.h"
 #include "lbm_settings.h"
 #include "monitor.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -30,6 +32,13 @@ class RunOutput {
   /// Writes what is due now; everything at the first call. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
+  /// Saves the state now where restart files were asked for; says in which file. Collective.
+  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const;
+
+  /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.
+  MonitorReferences references() const;
+  void set_references(MonitorReferences references) { references_ = std::move(references); }
+
  private:
   struct Fields {
     OutputRequest request;
@@ -39,14 +48,17 @@ class RunOutput {
   };
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
+  MonitorReferences references_;
   std::vector<std::unique_ptr<Fields>> fields_;
   std::optional<CheckpointRequest> checkpoint_;
   long checkpoint_every_ = 0;
   bool started_ = false;
 };
 
-/// Saves the fluid to `file` and LIGGGHTS's own restart file beside it, `file`.grains. Collective.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation, const std::string& file);
+/// Saves the fluid and what monitors refer to in `file`, and LIGGGHTS's own restart file beside it,
+/// `file`.grains. Collective.
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
+                      const MonitorReferences& references, const std::string& file);
 
 /// A UserError if the grains are not those of the step in which `file` was saved. Collective.
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file);

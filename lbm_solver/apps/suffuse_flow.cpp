@@ -155,7 +155,8 @@ class FlowRun {
         fmt::format("{:.4g} s  {:.1f} MLUPS  {}", units_.time_to_si(static_cast<double>(now)),
                     step_seconds_ > 0 ? cells * static_cast<double>(now - first) / step_seconds_ * 1e-6 : 0.,
                     health_text(extremes));
-    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first), details_);
+    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first),
+                    [this] { return details_; });
   }
 
   bool is_steady(double& last_mean) const {
