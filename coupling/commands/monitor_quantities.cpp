@@ -323,7 +323,7 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
   if (word == "extremes")
     return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
             [](Sample& sample, std::vector<double>& row) {
-              const lbm::FluidExtremes e = sample.simulation.fluid().extremes();
+              const lbm::FluidExtremes& e = sample.planes().extremes;
               row.insert(row.end(), {e.largest_speed * std::sqrt(3.), e.smallest_density, e.largest_density});
             }};
   return reference_quantity(request, now.lmp);

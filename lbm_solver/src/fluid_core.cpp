@@ -28,8 +28,12 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
     deviation += g;
     momentum += g * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
   }
+  return point_of(deviation, momentum, partial_solid(x, y, z));
+}
+
+FluidPoint FluidCoreBase::point_of(double deviation, const Vec3& momentum,
+                                   const PartialSolidCell& solids) const {
   const double density = settings.collision.incompressible ? 1 : 1 + deviation;
-  const PartialSolidCell solids = partial_solid(x, y, z);
   // A grain may cover so little of a cell that its strength is rounded to nothing.
   if (!(solids.strength > 0)) return {1 + deviation, momentum / density};
   // What the cell's fluid and solids move at together.
@@ -213,6 +217,37 @@ template <class T>
 double FluidCore<T>::population(int direction, int x, int y, int z) const {
   return static_cast<double>(
       populations_.slot(odd ? opposite(direction) : direction)[place(direction, x, y, z)]);
+}
+
+template <class T>
+void FluidCore<T>::moments_of_row(int y, int z, RowMoments& moments) const {
+  constexpr int block = 8;  // cells whose sums stay in registers
+  const T* rows[kDirections];
+  for (int i = 0; i < kDirections; ++i)
+    rows[i] = populations_.slot(odd ? opposite(i) : i) + place(i, 0, y, z);
+  const int n = populations_.cells()[0];
+  moments.resize(static_cast<std::size_t>((n + block - 1) / block * block));
+  for (int begin = 0; begin < n; begin += block) {
+    double deviation[block] = {}, momentum[3][block];
+    for (int a = 0; a < 3; ++a) std::fill_n(momentum[a], block, 0.5 * force[a]);
+    double g[block] = {};
+    for (int i = 0; i < kDirections; ++i) {
+      const T* row = rows[i] + begin;
+      if (begin + block <= n)
+        for (int x = 0; x < block; ++x) g[x] = static_cast<double>(row[x]);
+      else
+        for (int x = 0; x < n - begin; ++x) g[x] = static_cast<double>(row[x]);
+      for (int x = 0; x < block; ++x) deviation[x] += g[x];
+      for (int a = 0; a < 3; ++a) {
+        const double along = kVelocity[i][a];
+        if (along == 0) continue;
+        for (int x = 0; x < block; ++x) momentum[a][x] += along * g[x];
+      }
+    }
+    std::copy_n(deviation, block, &moments.deviation[static_cast<std::size_t>(begin)]);
+    for (int a = 0; a < 3; ++a)
+      std::copy_n(momentum[a], block, &moments.momentum[a][static_cast<std::size_t>(begin)]);
+  }
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "face_patches.h"
 #include "halo_exchange.h"
@@ -34,6 +35,19 @@ class FluidCoreBase {
 
   FluidPoint at(int x, int y, int z) const;
 
+  /// Deviation from density one and momentum of the populations of each cell of a row, half of the force
+  /// included; solids are not looked at.
+  struct RowMoments {
+    std::vector<double> deviation, momentum[3];
+    void resize(std::size_t cells) {
+      deviation.resize(cells);
+      for (auto& component : momentum) component.resize(cells);
+    }
+  };
+  virtual void moments_of_row(int y, int z, RowMoments& moments) const = 0;
+  /// What `at` is in a cell that is no solid, from its moments and what covers it in part.
+  FluidPoint point_of(double deviation, const Vec3& momentum, const PartialSolidCell& solids) const;
+
   FluidSettings settings;
   Decomposition decomposition;
   InstructionSet instruction_set;
@@ -53,6 +67,7 @@ class FluidCore final : public FluidCoreBase {
   int rows_per_block() const override;
   void bare_update() override;
   double population(int direction, int x, int y, int z) const override;
+  void moments_of_row(int y, int z, RowMoments& moments) const override;
   void set_population(int direction, int x, int y, int z, double value) override;
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) override;
   PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings) override;

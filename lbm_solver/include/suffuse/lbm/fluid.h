@@ -100,6 +100,12 @@ class Fluid {
   /// one moves at (1-B) u + B us.
   FluidPoint at(const Index3& cell) const;
 
+  /// Visits the cells of this rank with what `at` and `solid_fraction` give for them, to the last digit:
+  /// several times faster than one by one.
+  using PointVisitor =
+      std::function<void(const Index3& cell, const FluidPoint& point, double solid_fraction)>;
+  void for_each_point(const PointVisitor& visit) const;
+
   /// The population that a cell of this rank is about to collide, less its weight.
   double population(int direction, const Index3& cell) const;
   void set_population(int direction, const Index3& cell, double value);
