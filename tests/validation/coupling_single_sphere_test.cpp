@@ -105,7 +105,9 @@ void compare(const char* name, const CoupledSettings& settings, double reynolds,
 // Bounds: the default's is the aim of 3 % (that of the arrays at ten cells). The thesis's operators lie
 // lower, by as much as their effective radius is smaller: 4 % measured before the bound was set.
 TEST_CASE("drag of a single sphere at five cells a diameter and a Reynolds number of 0.1") {
-  CHECK(duct_factor(1e-4, 50) == Approx(1 / (1 - 0.75 * 3.90026 / 20)).epsilon(1e-4));
+  // Creeping flow: what Oseen adds to the drag, 3 Re/16, the images take back, as it is the sphere's own
+  // field at its place that the inflow fixes.
+  CHECK(duct_factor(0.01, 50) == Approx(1 / (1 - 0.75 * 3.90026 / 20)).epsilon(1e-4));
   compare("default", lattice_settings(kTau, default_solids()), 0.1, 10, 0.03);
 }
 
