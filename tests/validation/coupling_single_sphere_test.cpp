@@ -74,11 +74,13 @@ double drag_in_stream(const CoupledSettings& base, double reynolds, int width) {
   scene.simulation->fluid().set_equilibrium([&](const Index3& c) {
     return lbm::FluidPoint{1, start(c) + Vec3(0, missing[static_cast<std::size_t>(c[1])], 0)};
   });
-  // Means over 500 steps, until two that follow each other agree within 1e-3. What remains far from the
-  // sphere spreads in L^2/(pi^2 nu) = 8400 steps (10 diameters), but the start holds the images' effect
-  // already.
+  // Means over 500 steps, until two that follow each other agree within 1e-3, but not at a turning point: the
+  // wake takes a while: at Re = 1 the drag falls for 1000 to 1500 steps before it rises to its end. What
+  // remains far from the sphere spreads in L^2/(pi^2 nu) = 8400 steps (10 diameters), but the start holds the
+  // images' effect already.
   double last = 0, now = 0;
-  for (int n = 0; n < 12; ++n) {
+  const int least = reynolds < 0.5 ? 3 : width * width / 500;
+  for (int n = 0; n < 12 + least; ++n) {
     last = now;
     now = 0;
     for (int k = 0; k < 10; ++k) {
@@ -86,7 +88,7 @@ double drag_in_stream(const CoupledSettings& base, double reynolds, int width) {
       now += scene.force()[1] / 10;
     }
     std::printf("    %d steps: %.4f\n", 500 * (n + 1), now / (3 * std::numbers::pi * nu * kDiameter * speed));
-    if (std::abs(now / last - 1) < 1e-3) break;
+    if (n >= least && std::abs(now / last - 1) < 1e-3) break;
   }
   return now / (3 * std::numbers::pi * nu * kDiameter * speed);
 }
@@ -118,7 +120,7 @@ TEST_CASE("drag of a single sphere at other Reynolds numbers and with the thesis
 }
 
 TEST_CASE("drag of a single sphere in a box twenty diameters wide", "[.long]") {
-  for (const double reynolds : {0.1, 1.})
+  for (const double reynolds : {1., 0.1})
     compare("default", lattice_settings(kTau, default_solids()), reynolds, 20, 0.03);
   compare("thesis ", thesis_settings(kTau), 0.1, 20, 0.06);
 }
