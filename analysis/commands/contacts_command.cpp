@@ -106,7 +106,9 @@ void run(Options& options) {
     if (json) json->write(record);
     if (pdf) write_force_pdf(*pdf, snapshot.step, options.measures.force_bins, measurer->forces());
     table.add(record);
-    progress.update(series->done(), fmt::format("{} snapshots, step {}", ++snapshots, snapshot.step));
+    ++snapshots;
+    progress.update(series->done(),
+                    [&] { return fmt::format("{} snapshots, step {}", snapshots, snapshot.step); });
   }
   if (is_long) progress.finish(fmt::format("{} snapshots", snapshots));
   if (csv) csv->commit();

@@ -10,7 +10,7 @@ namespace suffuse {
 ProgressLine::ProgressLine(bool speaks)
     : speaks_(speaks), terminal_(isatty(fileno(stderr)) == 1), start_(Clock::now()), last_(start_) {}
 
-void ProgressLine::update(double done, const std::string& details) {
+void ProgressLine::update(double done, const std::function<std::string()>& details) {
   if (!speaks_) return;
   const Clock::time_point now = Clock::now();
   const int tenths = static_cast<int>(done * 10);
@@ -18,12 +18,12 @@ void ProgressLine::update(double done, const std::string& details) {
   if (!due) return;
   last_ = now;
   tenths_ = tenths;
-  print(done, details);
+  print(done, details());
 }
 
-void ProgressLine::finish(const std::string& details) {
+void ProgressLine::finish(const std::string& details, double done) {
   if (!speaks_) return;
-  if (terminal_ || tenths_ < 10) print(1, details);
+  if (terminal_ || tenths_ < 10) print(done, details);
   if (terminal_) std::fputc('\n', stderr);
 }
 

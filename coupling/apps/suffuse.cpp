@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "../commands/interruption.h"
 #include "../commands/lbm_command.h"
 #include "error.h"
 #include "input.h"
@@ -106,6 +107,17 @@ void require_a_readable_script(int argc, char** argv) {
         {"suffuse", "-in", "nothing", "name a script", "suffuse -in SCRIPT, or see suffuse --help"});
 }
 
+/// Last words on the terminal and in the log, once for all ranks.
+void tell_the_end(const std::string& line, const LAMMPS_NS::LAMMPS* lmp, int rank) {
+  std::fflush(nullptr);
+  if (rank != 0) return;
+  fmt::print(stderr, "{}\n", line);
+  if (lmp != nullptr && lmp->logfile != nullptr) {
+    fmt::print(lmp->logfile, "{}\n", line);
+    std::fflush(lmp->logfile);
+  }
+}
+
 /// Runs the script; LIGGGHTS ends the process itself on errors of its own.
 int run_script(int argc, char** argv, int rank) {
   LAMMPS_NS::LAMMPS* lmp = nullptr;
@@ -122,15 +134,13 @@ int run_script(int argc, char** argv, int rank) {
     return 0;
   } catch (const suffuse::UserError& problem) {
     // Thrown on all ranks alike; the half-built LIGGGHTS is left to the operating system.
-    std::fflush(nullptr);
-    if (rank == 0) {
-      fmt::print(stderr, "suffuse: error: {}\n", problem.what());
-      if (lmp != nullptr && lmp->logfile != nullptr) {
-        fmt::print(lmp->logfile, "suffuse: error: {}\n", problem.what());
-        std::fflush(lmp->logfile);
-      }
-    }
+    tell_the_end(fmt::format("suffuse: error: {}", problem.what()), lmp, rank);
     return 1;
+  } catch (const suffuse::coupling::Interrupted& end) {
+    tell_the_end(end.what(), lmp, rank);
+    suffuse::coupling::LbmCommand::remove_from(lmp);
+    delete lmp;  // closes dumps and the log
+    return end.exit_code();
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "suffuse: error: rank {} is out of memory; use a larger spacing or more machines\n",
                rank);

@@ -18,6 +18,7 @@
 #include "region_block.h"
 #include "register_styles.h"
 #include "styles/fix_lubrication.h"
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/whole_cells.h"
@@ -113,6 +114,7 @@ void LbmCommand::line(int narg, char** arg) {
     output_ = {};
     state_to_read_.clear();
     continued_at_.reset();
+    warned_about_held_grains_ = false;
   } else {
     throw_user_error({"lbm", "word", word.empty() ? "nothing" : word, std::string("be one of: ") + known,
                       "see docs/reference/lbm.md"});
@@ -156,7 +158,7 @@ void LbmCommand::restart(ArgumentReader& reader) {
       throw_user_error(
           {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
     } else {
-      write_checkpoint(lmp_, *simulation_, file);
+      write_checkpoint(lmp_, *simulation_, output_.references(), file);
     }
   } else {
     reader.unknown(mode, "write, read");
@@ -213,17 +215,39 @@ void LbmCommand::build() {
   coupled.substeps = choose_substeps();
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
   if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
-  if (!state_to_read_.empty()) {
-    lbm::load_state(simulation_->fluid(), state_to_read_);
-    if (port_->anything_moves() && !port_->loads_restored())
-      throw_user_error(
-          {"lbm restart", "read " + state_to_read_, "without the loads of the grains",
-           "find them as they were saved",
-           "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
-           "`run` and `dem_timestep`"});
-    if (port_->anything_moves()) require_grains_of(lmp_, state_to_read_);
-    continued_at_ = simulation_->time_si();
-  }
+  if (!state_to_read_.empty()) read_state();
+}
+
+/// Takes up the state that `lbm restart read` named.
+void LbmCommand::read_state() {
+  lbm::load_state(simulation_->fluid(), state_to_read_);
+  if (!require_same_settings(state_to_read_, *simulation_))
+    tell(lmp_, "lbm restart: note: " + state_to_read_ +
+                   " does not say with which settings it was made; they must be those of this script\n");
+  if (port_->anything_moves() && !port_->loads_restored())
+    throw_user_error(
+        {"lbm restart", "read " + state_to_read_, "without the loads of the grains",
+         "find them as they were saved",
+         "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
+         "`run` and `dem_timestep`"});
+  if (port_->anything_moves()) require_grains_of(lmp_, state_to_read_);
+  load_pore_coefficients(state_to_read_, *simulation_);
+  output_.set_references(load_references(state_to_read_, lmp_->world));
+  continued_at_ = simulation_->time_si();
+}
+
+/// Their velocity moves the fluid although they stay where they are.
+void LbmCommand::warn_about_held_grains() {
+  if (warned_about_held_grains_) return;
+  const LiggghtsPort::HeldInMotion held = port_->held_in_motion();
+  if (held.grains == 0) return;
+  warned_about_held_grains_ = true;
+  tell(lmp_,
+       fmt::format(
+           "lbm run: note: {} that no fix moves still {} a velocity (up to {:.3g} m/s), which drags the "
+           "water along; where that is not meant, write `velocity GROUP set 0 0 0` and `set group "
+           "GROUP omegax 0 omegay 0 omegaz 0`\n",
+           count_text(held.grains, "grain"), held.grains == 1 ? "has" : "have", held.speed));
 }
 
 /// Films between grains as LIGGGHTS's business (docs/reference/fix_lubrication.md), unless the script has a
@@ -284,8 +308,14 @@ void LbmCommand::plan(ArgumentReader& reader) {
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
+  const double time_step = port_->time_step();
   coupled.substeps = choose_substeps();
   plan_run(lmp_, coupled, parts, low, *port_, time);
+  // As if there had been no plan.
+  port_->set_time_step(time_step);
+  if (simulation_ != nullptr) return;
+  port_->withdraw();
+  port_.reset();
 }
 
 void LbmCommand::run(ArgumentReader& reader) {
@@ -307,6 +337,7 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
   }
+  warn_about_held_grains();
   LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
 }
 

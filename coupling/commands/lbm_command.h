@@ -37,6 +37,8 @@ class LbmCommand {
   CoupledSettings resolved_settings(std::vector<EffectChoice>& effects);
   lbm::Decomposition decomposition(Vec3& low);
   void build();
+  void read_state();
+  void warn_about_held_grains();
   void add_lubrication(const CoupledSimulation& simulation);
   int choose_substeps();
 
@@ -48,6 +50,7 @@ class LbmCommand {
   RunOutput output_;
   std::string state_to_read_;
   std::optional<double> continued_at_;  ///< s: time of the state that was read
+  bool warned_about_held_grains_ = false;
 };
 
 }  // namespace suffuse::coupling

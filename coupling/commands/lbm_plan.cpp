@@ -10,6 +10,7 @@
 #include "lammps.h"
 #include "manifest.h"
 #include "styles/style_support.h"
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "timer.h"
@@ -76,10 +77,47 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
   return costs;
 }
 
-std::string error_line(double cells) {
+/// What so many steps of single grains take, s: at the speed of LIGGGHTS's last run, or on usual cores.
+double grain_seconds(LAMMPS_NS::LAMMPS* lmp, const PastRun& past, double grain_steps) {
+  const double speed =
+      past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * lmp->comm->nprocs;
+  return grain_steps / speed;
+}
+
+/// Error of the permeability where the coefficient is calibrated; empty otherwise.
+std::string error_line(const SolidSettings& solids, double cells) {
+  const bool calibrated = solids.automatic_coefficient &&
+                          solids.cells.solid_operator == lbm::SolidOperator::force &&
+                          solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  if (!calibrated) return "";
   return fmt::format(
       "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %)\n",
       100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells));
+}
+
+std::string scene_text(const CoupledSettings& settings, const lbm::Units& units, const lbm::Index3& cells,
+                       const LiggghtsPort::Summary& grains, double time, double steps, double bytes) {
+  std::string text = fmt::format(
+      "lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells, {} each; {:.3g} GB for the fluid\n", time,
+      steps, cells[0], cells[1], cells[2], count_text(settings.substeps, "DEM step"), bytes * 1e-9);
+  text += "lbm plan: " + units.summary() + "\n";
+  if (grains.grains == 0) return text;
+  text += fmt::format("lbm plan: {}, {}\n", count_text(grains.grains, "grain"),
+                      sizes_text(grains, units.spacing()));
+  return text + error_line(settings.solids, grains.sauter_diameter / units.spacing());
+}
+
+std::string cost_table(const Costs& costs, double steps, bool grains_known) {
+  std::string text = fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
+  const auto row = [&](const char* name, double seconds) {
+    text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));
+  };
+  row("fluid", costs.fluid);
+  row("solid mapping", costs.mapping);
+  row("forces on grains", costs.exchange);
+  row(grains_known ? "grains, as last run" : "grains, usual core", costs.grains);
+  row("together", costs.fluid + costs.mapping + costs.exchange + costs.grains);
+  return text;
 }
 
 }  // namespace
@@ -90,37 +128,12 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   const LiggghtsPort::Summary grains = port.summary();
   const bool grains_move = grains.grains > 0 && port.anything_moves();
   Costs costs = measure(settings, parts, low, port, grains_move);
-  const double count = static_cast<double>(grains.grains);
   const PastRun past = port.past_run();
-  const double speed =
-      past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * lmp->comm->nprocs;
-  if (grains_move) costs.grains = settings.substeps * count / speed;
+  if (grains_move)
+    costs.grains = grain_seconds(lmp, past, settings.substeps * static_cast<double>(grains.grains));
   const double steps = std::max(1., std::round(units.time_to_lattice(time)));
-  const double a_step = costs.fluid + costs.mapping + costs.exchange + costs.grains;
-  if (lmp->comm->me != 0) return;
-  const lbm::Index3& cells = parts.cells();
-  std::string text = fmt::format("lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells", time, steps,
-                                 cells[0], cells[1], cells[2]);
-  text +=
-      fmt::format(", {} DEM steps each; {:.3g} GB for the fluid\n", settings.substeps, costs.bytes * 1e-9);
-  text += "lbm plan: " + units.summary() + "\n";
-  if (grains.grains > 0)
-    text += fmt::format("lbm plan: {} grains, {}\n", grains.grains, sizes_text(grains, units.spacing()));
-  const SolidSettings& solids = settings.solids;
-  const bool calibrated = solids.automatic_coefficient &&
-                          solids.cells.solid_operator == lbm::SolidOperator::force &&
-                          solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
-  if (grains.grains > 0 && calibrated) text += error_line(grains.sauter_diameter / units.spacing());
-  text += fmt::format("{:<22}{:>12}{:>12}\n", "cost of", "ms a step", "in all");
-  const auto row = [&](const char* name, double seconds) {
-    text += fmt::format("{:<22}{:>12.3f}{:>12}\n", name, 1e3 * seconds, duration_text(seconds * steps));
-  };
-  row("fluid", costs.fluid);
-  row("solid mapping", costs.mapping);
-  row("forces on grains", costs.exchange);
-  row(past.grain_steps > 0 ? "grains, as last run" : "grains, usual core", costs.grains);
-  row("together", a_step);
-  tell(lmp, text);
+  tell(lmp, scene_text(settings, units, parts.cells(), grains, time, steps, costs.bytes) +
+                cost_table(costs, steps, past.grain_steps > 0));
 }
 
 }  // namespace suffuse::coupling

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "comm.h"
+#include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
 #include "suffuse/common/error.h"
@@ -30,12 +31,7 @@ constexpr double kLargestOverlap = 0.02;
 
 LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
                CoupledSimulation& simulation, RunOutput& output)
-    : lmp_(lmp),
-      settings_(settings),
-      port_(port),
-      simulation_(simulation),
-      output_(output),
-      speaks_(lmp->comm->me == 0) {}
+    : lmp_(lmp), settings_(settings), port_(port), simulation_(simulation), output_(output) {}
 
 void LbmRun::say(const std::string& line) const {
   tell(lmp_, line + "\n");
@@ -57,16 +53,16 @@ void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {
                       "settle or separate them before, or take stiffer contacts"});
 }
 
-std::string LbmRun::details(long done) const {
+std::string LbmRun::details() const {
   const lbm::Index3& n = simulation_.fluid().decomposition().cells();
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
+  const double done = static_cast<double>(simulation_.fluid().steps() - first_);
   return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * static_cast<double>(done) / std::max(1e-9, MPI_Wtime() - start_) * 1e-6,
-                     lbm::health_text(extremes_));
+                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6, lbm::health_text(extremes_));
 }
 
-void LbmRun::check(long step, long first, long last) {
-  if (step % kCheckEvery != 0 && step != last && step != first) return;
+void LbmRun::check(long step) {
+  if (step % kCheckEvery != 0 && step != last_ && step != first_) return;
   extremes_ = simulation_.fluid().extremes();
   lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
                       "lbm run");
@@ -86,8 +82,9 @@ bool LbmRun::is_steady(double share) {
   return steady;
 }
 
-void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-                 std::optional<double> continue_after) {
+/// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
+void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
+                   std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
   const long steps = steps_in(request.time, units);
   if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
@@ -96,61 +93,101 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
                       fmt::format("{:g} s, which are {:.3g} DEM steps", request.time, dem_steps),
                       fmt::format("be at most {:.3g} DEM steps", static_cast<double>(MAXSMALLINT)),
                       "split it in several `lbm run`"});
-  const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, steps_in(window, units));
   if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
                   [](const OutputRequest& output) { return output.contacts; }))
     port_.use_contacts();
   port_.begin(steps * simulation_.substeps());
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
+  grains_ = grains.grains;
   for (const std::string& line : manifest(simulation_, grains, effects)) say("lbm run: " + line);
   simulation_.map();
   refuse_overlaps(grains);
   simulation_.times() = {};
   output_.prepare(settings_, lmp_, port_, simulation_, continue_after);
-  const bool follow_variables = values_change(settings_);
-  const long first = simulation_.fluid().steps(), last = first + steps;
+  follow_variables_ = values_change(settings_);
+  first_ = simulation_.fluid().steps();
+  last_ = first_ + steps;
   start_ = MPI_Wtime();
   output_.write(lmp_, port_, simulation_);
-  check(first, first, last);
-  ProgressLine progress(speaks_);
-  bool ending = false;
+  check(first_);
+}
+
+/// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
+void LbmRun::advance(long step, bool is_last) {
+  port_.check_unchanged();
+  if (follow_variables_) set_values();
+  if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
+  if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
+  if (is_last) port_.end_after(simulation_.substeps());
+  simulation_.step();
+}
+
+/// What is due after a step; true if the flow has become steady.
+bool LbmRun::look(long step, const RunRequest& request) {
+  const double before = MPI_Wtime();
+  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
+  check(step);
+  const double window = request.window > 0 ? request.window : request.time / 20;
+  const long steady_every = std::max(10L, steps_in(window, simulation_.units()));
   bool steady = false;
-  for (long step = first + 1; step <= last && !steady; ++step) {
-    steady = ending;  // LIGGGHTS writes its last lines in a step that it knows to be the last
-    port_.check_unchanged();
-    if (follow_variables) set_values();
-    if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
-    if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
-    if (ending) port_.end_after(simulation_.substeps());
-    simulation_.step();
-    {
-      const double before = MPI_Wtime();
-      if (output_.due(step)) output_.write(lmp_, port_, simulation_);
-      check(step, first, last);
-      if (request.steady && !ending && (step - first) % steady_every == 0) {
-        simulation_.map();
-        ending = is_steady(*request.steady);
-      }
-      simulation_.times().output += MPI_Wtime() - before;
-    }
-    progress.update(static_cast<double>(step - first) / static_cast<double>(steps), details(step - first));
-    if (port_.stop_requested()) break;
+  if (request.steady && (step - first_) % steady_every == 0) {
+    simulation_.map();
+    steady = is_steady(*request.steady);
   }
-  simulation_.refresh_loads();
-  port_.end();
-  progress.finish(details(simulation_.fluid().steps() - first));
-  const long made = simulation_.fluid().steps() - first;
+  simulation_.times().output += MPI_Wtime() - before;
+  return steady;
+}
+
+/// Saves the state where restart files were asked for, and says so.
+std::string LbmRun::interruption_text(int signal) {
+  const std::string where =
+      fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", signal_name(signal),
+                  simulation_.fluid().steps(), simulation_.time_si());
+  simulation_.map();
+  if (const auto file = output_.save(lmp_, simulation_))
+    return fmt::format(
+        "{}; the state is in {} and {}.grains: go on with `read_restart` and `lbm restart read`", where,
+        *file, *file);
+  return where + "; nothing saved: `lbm restart write FILE every T` before the run would have";
+}
+
+std::string LbmRun::table() {
+  const long made = simulation_.fluid().steps() - first_;
   const double wall = MPI_Wtime() - start_;
   const double grain_steps = port_.anything_moves() ? static_cast<double>(made) * simulation_.substeps() *
-                                                          static_cast<double>(grains.grains)
+                                                          static_cast<double>(grains_)
                                                     : 0;
-  const std::string table = time_table(simulation_, made, grain_steps, wall);
+  return time_table(simulation_, made, grain_steps, wall);
+}
+
+void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
+                 std::optional<double> continue_after) {
+  const SignalWatch signals;
+  begin(request, effects, continue_after);
+  const double steps = static_cast<double>(last_ - first_);
+  ProgressLine progress(lmp_->comm->me == 0);
+  bool is_last = false, steady = false;
+  int stop = 0;
+  for (long step = first_ + 1; step <= last_ && !steady && stop == 0; ++step) {
+    steady = is_last;
+    advance(step, is_last);
+    is_last = look(step, request);
+    progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
+    stop = port_.stop_requested(signals.received());
+  }
+  const bool interrupted = stop > LiggghtsPort::kFixStops;
+  const std::string last_words = interrupted ? interruption_text(stop) : "";
+  const double made = static_cast<double>(simulation_.fluid().steps() - first_);
+  simulation_.refresh_loads();
+  port_.end();
+  progress.finish(details(), interrupted ? made / steps : 1);
+  const std::string where_time_went = table();
   if (request.steady)
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
-                    units.time_to_si(static_cast<double>(made))));
-  say(table);
+                    simulation_.units().time_to_si(made)));
+  say(where_time_went);
+  if (interrupted) throw Interrupted(stop, last_words);
 }
 
 }  // namespace suffuse::coupling

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,24 +27,33 @@ class LbmRun {
   LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
          CoupledSimulation& simulation, RunOutput& output);
 
-  /// Collective. A UserError if the flow becomes unstable.
+  /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
+  /// the fluid step is finished then, and the state saved where restart files were asked for.
   void run(const RunRequest& request, const std::vector<EffectChoice>& effects,
            std::optional<double> continue_after);
 
  private:
+  void begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
+             std::optional<double> continue_after);
+  void advance(long step, bool is_last);
+  bool look(long step, const RunRequest& request);
+  std::string interruption_text(int signal);
   void set_values();
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
-  void check(long step, long first, long last);
+  void check(long step);
   bool is_steady(double share);
-  std::string details(long done) const;
+  std::string details() const;
+  std::string table();
 
   LAMMPS_NS::LAMMPS* lmp_;
   const LbmSettings& settings_;
   LiggghtsPort& port_;
   CoupledSimulation& simulation_;
   RunOutput& output_;
-  bool speaks_;
+  bool follow_variables_ = false;
+  long first_ = 0, last_ = 0;  ///< fluid steps that the run begins after and ends with
+  std::int64_t grains_ = 0;
   double start_ = 0;
   lbm::FluidExtremes extremes_;
   std::optional<Vec3> last_flow_, last_motion_;

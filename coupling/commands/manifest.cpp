@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/progress.h"
 
 namespace suffuse::coupling {
@@ -81,17 +82,19 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   const lbm::Index3& cells = fluid.decomposition().cells();
   const lbm::CollisionSettings& collision = fluid.settings().collision;
   std::vector<std::string> lines;
-  lines.push_back(fmt::format(
-      "lattice     {} x {} x {} cells on {} ranks, {}, {} kernels, {}{}", cells[0], cells[1], cells[2],
-      fluid.decomposition().ranks(), name_of(collision.collision_operator), name_of(fluid.instruction_set()),
-      fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
-      collision.incompressible ? ", incompressible" : ""));
+  lines.push_back(
+      fmt::format("lattice     {} x {} x {} cells on {}, {}, {} kernels, {}{}", cells[0], cells[1], cells[2],
+                  count_text(fluid.decomposition().ranks(), "rank"), name_of(collision.collision_operator),
+                  name_of(fluid.instruction_set()),
+                  fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
+                  collision.incompressible ? ", incompressible" : ""));
   lines.push_back("            " + units.summary());
   lines.push_back("faces       " + faces_text(fluid.settings().faces));
   lines.push_back("grains      " + grains_text(grains, units.spacing()));
   if (const std::string bed = bed_text(simulation, grains); !bed.empty()) lines.push_back(bed);
   if (grains.grains > 0) lines.push_back("solids      " + solids_text(simulation.settings().solids));
-  lines.push_back(fmt::format("coupling    {} DEM steps of {:.4g} s a fluid step{}", simulation.substeps(),
+  lines.push_back(fmt::format("coupling    {} of {:.4g} s a fluid step{}",
+                              count_text(simulation.substeps(), "DEM step"),
                               units.time_step() / simulation.substeps(),
                               simulation.settings().average_force ? ", mean force of two steps" : ""));
   for (const EffectChoice& effect : effects)
@@ -137,8 +140,9 @@ std::string time_table(CoupledSimulation& simulation, long steps, double grain_s
   row("rest", std::max(0., rest));
   const lbm::Index3& cells = simulation.fluid().decomposition().cells();
   const double all_cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, cells}.volume());
-  text += fmt::format("{} steps in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
-                      steps, duration_text(wall), all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
+  text += fmt::format("{} in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
+                      count_text(steps, "step"), duration_text(wall),
+                      all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
                       100 * bare * count / std::max(parts[0], 1e-9));
   if (grain_steps > 0)
     text +=

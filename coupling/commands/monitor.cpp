@@ -34,12 +34,25 @@ double Sample::specific_weight() const {
 }
 
 Monitor::Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                 CoupledSimulation& simulation, std::optional<double> continue_after)
+                 CoupledSimulation& simulation, std::optional<double> continue_after,
+                 const MonitorReferences& references)
     : request_(request), every_(steps_in(request.every, simulation.units())), speaks_(lmp->comm->me == 0) {
   Sample now(lmp, port, simulation, request.axis);
   for (const QuantityRequest& quantity : request.quantities)
     quantities_.push_back(make_quantity(quantity, request, now));
+  for (Quantity& quantity : quantities_)
+    if (const auto saved = references.find(key(quantity)); quantity.reference && saved != references.end())
+      *quantity.reference = saved->second;
   open(continue_after, lmp->world);
+}
+
+std::string Monitor::key(const Quantity& quantity) const {
+  return fmt::format("{}: {}", request_.id, fmt::join(quantity.columns, ","));
+}
+
+void Monitor::add_references(MonitorReferences& references) const {
+  for (const Quantity& quantity : quantities_)
+    if (quantity.reference && !quantity.reference->empty()) references[key(quantity)] = *quantity.reference;
 }
 
 void Monitor::open(std::optional<double> continue_after, MPI_Comm communicator) {

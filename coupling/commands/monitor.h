@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
+#include "checkpoint_contents.h"
 #include "monitor_request.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/plane_sums.h"
@@ -39,6 +40,9 @@ class Sample {
 struct Quantity {
   std::vector<std::string> columns;  ///< names with units
   std::function<void(Sample&, std::vector<double>&)> append;
+  /// What samples refer to, in an order of the quantity's own, empty before the first one: kept in saved
+  /// states. Null: nothing.
+  std::shared_ptr<std::vector<double>> reference = {};
 };
 
 /// The quantity that a line of the script asks for. A UserError if it names what does not exist.
@@ -48,10 +52,14 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
 /// `lbm monitor`: a CSV file with a header of names and units, one row a sample, flushed as written.
 class Monitor {
  public:
-  /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay.
-  /// Collective.
+  /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay, and
+  /// samples refer to what `references` has for these columns. Collective.
   Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-          CoupledSimulation& simulation, std::optional<double> continue_after);
+          CoupledSimulation& simulation, std::optional<double> continue_after,
+          const MonitorReferences& references);
+
+  /// Adds what samples refer to now.
+  void add_references(MonitorReferences& references) const;
 
   /// Fluid steps between samples.
   long every() const { return every_; }
@@ -62,6 +70,7 @@ class Monitor {
 
  private:
   void open(std::optional<double> continue_after, MPI_Comm communicator);
+  std::string key(const Quantity& quantity) const;
 
   MonitorRequest request_;
   std::vector<Quantity> quantities_;

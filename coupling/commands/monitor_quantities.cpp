@@ -147,11 +147,8 @@ Quantity bed_quantity(int axis) {
 /// Mass of the fluid, what all populations hold beyond rest (conserved but for the faces), and its change
 /// less what came in through the faces across the axis, by the trapezoidal rule over the samples.
 Quantity mass_quantity() {
-  struct State {
-    bool started = false;
-    double first = 0, last_time = 0, last_inflow = 0, came_in = 0;
-  };
-  auto state = std::make_shared<State>();
+  enum { first, last_time, last_inflow, came_in, size };
+  auto state = std::make_shared<std::vector<double>>();
   return {{"fluid_mass_kg", "mass_change_kg", "mass_balance_kg"},
           [state](Sample& sample, std::vector<double>& row) {
             const PlaneSums& planes = sample.planes();
@@ -162,13 +159,15 @@ Quantity mass_quantity() {
             const double inflow =
                 units.density() * area * (planes.flux.front()[sample.axis] - planes.flux.back()[sample.axis]);
             const double time = sample.simulation.time_si();
-            if (!state->started) *state = {true, planes.stored_mass, time, inflow, 0};
-            state->came_in += 0.5 * (time - state->last_time) * (inflow + state->last_inflow);
-            state->last_time = time;
-            state->last_inflow = inflow;
-            const double change = planes.stored_mass - state->first;
-            row.insert(row.end(), {planes.fluid_mass, change, change - state->came_in});
-          }};
+            if (state->size() != size) *state = {planes.stored_mass, time, inflow, 0};
+            std::vector<double>& s = *state;
+            s[came_in] += 0.5 * (time - s[last_time]) * (inflow + s[last_inflow]);
+            s[last_time] = time;
+            s[last_inflow] = inflow;
+            const double change = planes.stored_mass - s[first];
+            row.insert(row.end(), {planes.fluid_mass, change, change - s[came_in]});
+          },
+          state};
 }
 
 Quantity discharge_quantity(int axis) {
@@ -192,11 +191,13 @@ Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
     if (k < bounds.size()) name += fmt::format("_below_{:g}_m", bounds[k]);
     columns.push_back(name);
   }
-  const std::vector<double> first = now.port.grains_by_size(bounds);
-  return {columns, [bounds, first](Sample& sample, std::vector<double>& row) {
+  const auto first = std::make_shared<std::vector<double>>(now.port.grains_by_size(bounds));
+  return {columns,
+          [bounds, first](Sample& sample, std::vector<double>& row) {
             const std::vector<double> left = sample.port.grains_by_size(bounds);
-            for (std::size_t k = 0; k < first.size(); ++k) row.push_back(first[k] - left[k]);
-          }};
+            for (std::size_t k = 0; k < left.size(); ++k) row.push_back((*first)[k] - left[k]);
+          },
+          first};
 }
 
 Quantity mean_force_quantity(const QuantityRequest& request, LAMMPS* lmp) {
@@ -279,7 +280,8 @@ Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
             }
             for (std::size_t k = 0; k < values.size(); ++k)
               row.push_back(relative ? values[k] / (*first)[k] : values[k]);
-          }};
+          },
+          first};
 }
 
 }  // namespace
@@ -321,7 +323,7 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
   if (word == "extremes")
     return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
             [](Sample& sample, std::vector<double>& row) {
-              const lbm::FluidExtremes e = sample.simulation.fluid().extremes();
+              const lbm::FluidExtremes& e = sample.planes().extremes;
               row.insert(row.end(), {e.largest_speed * std::sqrt(3.), e.smallest_density, e.largest_density});
             }};
   return reference_quantity(request, now.lmp);

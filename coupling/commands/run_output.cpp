@@ -53,12 +53,18 @@ std::string grains_file(const std::string& file) {
 }  // namespace
 
 /// Both files are written beside the old ones, which they replace when they are whole.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation, const std::string& file) {
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
+                      const MonitorReferences& references, const std::string& file) {
   const std::string fresh = file + ".new";
   require_writable("lbm restart write", fresh, lmp->world);
   lbm::save_state(simulation.fluid(), fresh);
-  Hdf5File(fresh, Hdf5File::Mode::append, lmp->world)
-      .set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+  {
+    Hdf5File state(fresh, Hdf5File::Mode::append, lmp->world);
+    state.set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+    save_settings(state, simulation);
+    save_references(state, references, lmp->world);
+    save_pore_coefficients(state, simulation);
+  }
   std::string grains = fresh + ".grains";
   LAMMPS_NS::WriteRestart(lmp).write(grains.data());
   MPI_Barrier(lmp->world);
@@ -67,7 +73,6 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation, con
     std::filesystem::rename(fresh, file);
   }
   MPI_Barrier(lmp->world);
-  simulation.survey_again();
 }
 
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
@@ -88,7 +93,8 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
   for (const MonitorRequest& request : settings.monitors)
     if (std::none_of(monitors_.begin(), monitors_.end(),
                      [&](const auto& open) { return open->request().id == request.id; }))
-      monitors_.push_back(std::make_unique<Monitor>(request, lmp, port, simulation, continue_after));
+      monitors_.push_back(
+          std::make_unique<Monitor>(request, lmp, port, simulation, continue_after, references_));
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
@@ -152,8 +158,7 @@ void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulat
     if (!fields->grains) continue;
     write_grains(*fields, port, simulation);
   }
-  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0)
-    write_checkpoint(lmp, simulation, checkpoint_->file);
+  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, simulation);
   started_ = true;
 }
 
@@ -169,6 +174,18 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
   snapshot.box_high = port.box_high();
   snapshot.periodic = port.periodic();
   fields.grains->write(snapshot, simulation.fluid().decomposition().communicator());
+}
+
+std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const {
+  if (!checkpoint_) return {};
+  write_checkpoint(lmp, simulation, references(), checkpoint_->file);
+  return checkpoint_->file;
+}
+
+MonitorReferences RunOutput::references() const {
+  MonitorReferences all;
+  for (const auto& monitor : monitors_) monitor->add_references(all);
+  return all;
 }
 
 }  // namespace suffuse::coupling

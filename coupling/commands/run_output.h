@@ -3,9 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
+#include "checkpoint_contents.h"
 #include "lbm_settings.h"
 #include "monitor.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -32,6 +34,13 @@ class RunOutput {
   /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
+  /// Saves the state now where restart files were asked for; says in which file. Collective.
+  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const;
+
+  /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.
+  MonitorReferences references() const;
+  void set_references(MonitorReferences references) { references_ = std::move(references); }
+
  private:
   struct Fields {
     OutputRequest request;
@@ -44,14 +53,17 @@ class RunOutput {
   static void write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
+  MonitorReferences references_;
   std::vector<std::unique_ptr<Fields>> fields_;
   std::optional<CheckpointRequest> checkpoint_;
   long checkpoint_every_ = 0;
   bool started_ = false;
 };
 
-/// Saves the fluid to `file` and LIGGGHTS's own restart file beside it, `file`.grains. Collective.
-void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation, const std::string& file);
+/// Saves the fluid and what monitors refer to in `file`, and LIGGGHTS's own restart file beside it,
+/// `file`.grains. Collective.
+void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
+                      const MonitorReferences& references, const std::string& file);
 
 /// A UserError if the grains are not those of the step in which `file` was saved. Collective.
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file);

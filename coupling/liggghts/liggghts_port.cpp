@@ -59,8 +59,14 @@ LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
     std::string id = "hydrodynamic_force", group = "all", style = "hydrodynamic/force";
     char* words[] = {id.data(), group.data(), style.data()};
     lmp->modify->add_fix(3, words);
+    made_fix_ = true;
   }
   fix_ = find_force_fix(lmp);
+}
+
+void LiggghtsPort::withdraw() {
+  if (made_fix_ && find_force_fix(lmp_) != nullptr) lmp_->modify->delete_fix(find_force_fix(lmp_)->id);
+  made_fix_ = false;
 }
 
 GrainArrays LiggghtsPort::grains() {
@@ -154,6 +160,24 @@ bool LiggghtsPort::anything_moves() const {
   return false;
 }
 
+LiggghtsPort::HeldInMotion LiggghtsPort::held_in_motion() const {
+  int moved = 0;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (lmp_->modify->fix[i]->time_integrate != 0) moved |= lmp_->modify->fix[i]->groupbit;
+  const auto* atom = lmp_->atom;
+  double grains = 0, speed = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & fix_->groupbit) == 0 || (atom->mask[i] & moved) != 0) continue;
+    const double own = Eigen::Map<const Vec3>(atom->v[i]).norm() +
+                       atom->radius[i] * Eigen::Map<const Vec3>(atom->omega[i]).norm();
+    if (own > 0) grains += 1;
+    speed = std::max(speed, own);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &grains, 1, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, lmp_->world);
+  return {static_cast<std::int64_t>(grains), speed};
+}
+
 bool LiggghtsPort::loads_restored() const {
   // Grains migrate, and a rank may have had none: restored on one rank is restored on all.
   int mine[2] = {lmp_->atom->nlocal > 0 ? 1 : 0, fix_->restored() ? 1 : 0};
@@ -242,10 +266,10 @@ void LiggghtsPort::end() {
   if (EarlyStop::requested) LAMMPS_NS::SignalHandler::request_quit = false;
 }
 
-bool LiggghtsPort::stop_requested() const {
-  int mine = LAMMPS_NS::SignalHandler::request_quit ? 1 : 0, any = 0;
+int LiggghtsPort::stop_requested(int signal) const {
+  int mine = std::max(signal, LAMMPS_NS::SignalHandler::request_quit ? kFixStops : 0), any = 0;
   MPI_Allreduce(&mine, &any, 1, MPI_INT, MPI_MAX, lmp_->world);
-  return any != 0;
+  return any;
 }
 
 void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {

@@ -29,6 +29,8 @@ class LiggghtsPort final : public ParticlePort {
   /// Makes `fix hydrodynamic/force` for all grains if the script has none. A UserError if the grains are not
   /// spheres. Collective.
   explicit LiggghtsPort(LAMMPS_NS::LAMMPS* lmp);
+  /// Takes the fix back if this port made it: as if there had been no port.
+  void withdraw();
 
   GrainArrays grains() override;
   void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override;
@@ -46,12 +48,22 @@ class LiggghtsPort final : public ParticlePort {
   /// Does any fix integrate the motion of grains?
   bool anything_moves() const;
 
+  /// Grains of the fix's group that no fix moves and that have a velocity all the same: the fluid feels it.
+  struct HeldInMotion {
+    std::int64_t grains = 0;
+    double speed = 0;  ///< of the fastest point on a surface, m/s
+  };
+  /// Collective.
+  HeldInMotion held_in_motion() const;
+
   /// Have the grains the loads that a restart file kept? LIGGGHTS gives them only to a fix that is defined
   /// before anything is run. True without grains. Collective.
   bool loads_restored() const;
 
-  /// Has a fix or a signal asked to end the run? The same on all ranks.
-  bool stop_requested() const;
+  /// 0, or why the run shall end: kFixStops, or the number of the signal that has come to some rank
+  /// (`signal`: on this one, 0 for none). The same on all ranks. Collective.
+  int stop_requested(int signal = 0) const;
+  static constexpr int kFixStops = 1;  ///< less than the numbers of the signals that ask a program to end
 
   /// Computes will be asked for values when the next so many steps are done.
   void announce_values(int substeps);
@@ -117,6 +129,7 @@ class LiggghtsPort final : public ParticlePort {
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
   bool running_ = false;
+  bool made_fix_ = false;
   bool moves_ = false;
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};

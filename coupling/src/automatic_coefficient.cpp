@@ -50,6 +50,31 @@ PoreSurvey::PoreSurvey(lbm::InstructionSet instruction_set, const lbm::PartialSo
       plane_pitch_(arrays.plane_pitch),
       box_(local_box) {}
 
+std::size_t PoreSurvey::values_held() const {
+  constexpr std::ptrdiff_t spare = 8;  // packs go beyond the last cell
+  return static_cast<std::size_t>(plane_pitch_ * box_.extent(2) + spare);
+}
+
+std::size_t PoreSurvey::place(int x, int y, int z) const {
+  return static_cast<std::size_t>(x + row_pitch_ * y + plane_pitch_ * z);
+}
+
+std::vector<float> PoreSurvey::values() const {
+  std::vector<float> values;
+  if (surface_.empty()) return values;
+  values.reserve(box_.volume());
+  lbm::for_each_cell({{0, 0, 0}, box_.extents()},
+                     [&](int x, int y, int z) { values.push_back(surface_[place(x, y, z)]); });
+  return values;
+}
+
+void PoreSurvey::set_values(const std::vector<float>& values) {
+  surface_.assign(values_held(), 0);
+  std::size_t n = 0;
+  lbm::for_each_cell({{0, 0, 0}, box_.extents()},
+                     [&](int x, int y, int z) { surface_[place(x, y, z)] = values.at(n++); });
+}
+
 void PoreSurvey::update(const std::vector<LatticeSphere>& spheres, const CoefficientLaw& law) {
   auto add = portable::add_smoothed;
   auto narrow = portable::narrow_plane;
@@ -62,10 +87,8 @@ void PoreSurvey::update(const std::vector<LatticeSphere>& spheres, const Coeffic
     narrow = avx512::narrow_plane;
   }
 #endif
-  constexpr std::ptrdiff_t spare = 8;  // packs go beyond the last cell
-  const auto count = static_cast<std::size_t>(plane_pitch_ * box_.extent(2) + spare);
-  surface_.assign(count, 0);
-  solid_.assign(count, 0);
+  surface_.assign(values_held(), 0);
+  solid_.assign(values_held(), 0);
   PoreCells cells{};
   for (int a = 0; a < 3; ++a) {
     cells.lo[a] = box_.lo[static_cast<std::size_t>(a)];

@@ -160,9 +160,15 @@ bool CoupledSimulation::survey_due(const GrainArrays& grains) {
     if (h[history::surveyed] == 0 || (in_turn && moved.norm() > distance)) sums[0] = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_LONG, MPI_SUM, fluid_.decomposition().communicator());
-  if (sums[0] == 0 && sums[1] == surveyed_grains_) return false;
+  const bool same_grains = surveyed_grains_ == kWhoeverIsThere || sums[1] == surveyed_grains_;
   surveyed_grains_ = sums[1];
-  return true;
+  return sums[0] > 0 || !same_grains;
+}
+
+void CoupledSimulation::set_pore_coefficients(const std::vector<float>& values) {
+  pores_.set_values(values);
+  mapping_.set_pore_coefficients(pores_.coefficients());
+  surveyed_grains_ = kWhoeverIsThere;
 }
 
 /// Finds what the pores add to the coefficient in each cell.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace suffuse::coupling {
 
@@ -15,6 +16,12 @@ struct Sums {
 };
 constexpr int kSums = sizeof(Sums) / sizeof(double);
 
+/// Over all cells: mass, twice the kinetic energy, deviation from rest.
+struct Totals {
+  double mass, energy, stored;
+};
+static_assert(sizeof(Totals) <= sizeof(Sums));
+
 }  // namespace
 
 PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
@@ -22,31 +29,33 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   const lbm::Units& units = simulation.units();
   const lbm::Decomposition& d = fluid.decomposition();
   const auto along = static_cast<std::size_t>(axis);
-  std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]), Sums{});
-  double totals[3] = {0, 0, 0};  // mass, twice the kinetic energy, deviation from rest
-  std::vector<lbm::FluidPoint> row;
-  lbm::for_each_row(d.local_box(), [&](int y, int z) {
-    fluid.read_row(y, z, row);
-    lbm::Index3 cell{d.local_box().lo[0], y, z};
-    for (const lbm::FluidPoint& point : row) {
-      const double open = 1 - fluid.solid_fraction(cell);
-      const Vec3 solid = simulation.mapping().solid_flux(cell);
-      Sums& plane = sums[static_cast<std::size_t>(cell[along])];
-      for (int a = 0; a < 3; ++a) {
-        plane.flux[a] += point.velocity[a];
-        plane.solid_flux[a] += solid[a];
-      }
-      plane.open += open;
-      plane.pressure += open * (point.density - 1);
-      totals[0] += open * point.density;
-      totals[1] += open * point.density * point.velocity.squaredNorm();
-      totals[2] += point.density - 1;
-      ++cell[0];
+  std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]) + 1, Sums{});
+  Totals totals{};
+  double extremes[3] = {0, -1e300, -1e300};  // squared speed, density, -density
+  fluid.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
+    const double open = 1 - solid_fraction;
+    const Vec3 solid = simulation.mapping().solid_flux(cell);
+    Sums& plane = sums[static_cast<std::size_t>(cell[along])];
+    for (int a = 0; a < 3; ++a) {
+      plane.flux[a] += point.velocity[a];
+      plane.solid_flux[a] += solid[a];
     }
+    plane.open += open;
+    plane.pressure += open * (point.density - 1);
+    const double speed_squared = point.velocity.squaredNorm();
+    totals.mass += open * point.density;
+    totals.energy += open * point.density * speed_squared;
+    totals.stored += point.density - 1;
+    extremes[0] = std::max(extremes[0], speed_squared);
+    extremes[1] = std::max(extremes[1], point.density);
+    extremes[2] = std::max(extremes[2], -point.density);
   });
+  std::memcpy(&sums.back(), &totals, sizeof totals);  // they travel with the planes
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), kSums * static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 d.communicator());
-  MPI_Allreduce(MPI_IN_PLACE, totals, 3, MPI_DOUBLE, MPI_SUM, d.communicator());
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, d.communicator());
+  std::memcpy(&totals, &sums.back(), sizeof totals);
+  sums.pop_back();
 
   PlaneSums planes;
   planes.axis = axis;
@@ -61,9 +70,10 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
     planes.pressure.push_back(s.open > 0 ? units.density_lattice_to_pressure(1 + s.pressure / s.open) : 0);
   }
   const double cell_mass = units.density() * std::pow(units.spacing(), 3);
-  planes.fluid_mass = cell_mass * totals[0];
-  planes.stored_mass = cell_mass * totals[2];
-  planes.fluid_kinetic_energy = 0.5 * cell_mass * totals[1] * std::pow(units.velocity_to_si(1.), 2);
+  planes.fluid_mass = cell_mass * totals.mass;
+  planes.stored_mass = cell_mass * totals.stored;
+  planes.fluid_kinetic_energy = 0.5 * cell_mass * totals.energy * std::pow(units.velocity_to_si(1.), 2);
+  planes.extremes = {std::sqrt(extremes[0]), -extremes[2], extremes[1], true};
   return planes;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -107,8 +108,8 @@ class FlowRun {
   void tell_settings() const {
     if (!speaks_) return;
     const Index3& n = fluid_.decomposition().cells();
-    fmt::print("{} x {} x {} cells on {} ranks, {} kernels, {}{}{}, {}\n", n[0], n[1], n[2],
-               fluid_.decomposition().ranks(), name_of(fluid_.instruction_set()),
+    fmt::print("{} x {} x {} cells on {}, {} kernels, {}{}{}, {}\n", n[0], n[1], n[2],
+               count_text(fluid_.decomposition().ranks(), "rank"), name_of(fluid_.instruction_set()),
                name_of(flow_.collision.collision_operator),
                flow_.collision.smagorinsky > 0 ? ", Smagorinsky" : "",
                flow_.collision.incompressible ? ", incompressible" : "",
@@ -155,7 +156,8 @@ class FlowRun {
         fmt::format("{:.4g} s  {:.1f} MLUPS  {}", units_.time_to_si(static_cast<double>(now)),
                     step_seconds_ > 0 ? cells * static_cast<double>(now - first) / step_seconds_ * 1e-6 : 0.,
                     health_text(extremes));
-    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first), details_);
+    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first),
+                    [this] { return details_; });
   }
 
   bool is_steady(double& last_mean) const {

@@ -61,15 +61,11 @@ std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units
     });
     return values;
   }
-  std::vector<FluidPoint> row;
-  for_each_row(box, [&](int y, int z) {
-    fluid.read_row(y, z, row);
-    for (const FluidPoint& point : row) {
-      if (field == Field::velocity)
-        for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
-      if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
-      if (field == Field::density) add(units.density_to_si(point.density));
-    }
+  fluid.for_each_point([&](const Index3&, const FluidPoint& point, double) {
+    if (field == Field::velocity)
+      for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
+    if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
+    if (field == Field::density) add(units.density_to_si(point.density));
   });
   return values;
 }

@@ -137,9 +137,24 @@ FluidPoint Fluid::at(const Index3& cell) const {
   return core_->at(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
 }
 
-void Fluid::read_row(int y, int z, std::vector<FluidPoint>& points) const {
-  const Index3& lo = core_->decomposition.local_box().lo;
-  core_->read_row(y - lo[1], z - lo[2], points);
+void Fluid::for_each_point(const PointVisitor& visit) const {
+  const CellBox& box = core_->decomposition.local_box();
+  FluidCoreBase::RowMoments row;
+  for (int z = 0; z < box.extent(2); ++z)
+    for (int y = 0; y < box.extent(1); ++y) {
+      core_->moments_of_row(y, z, row);
+      for (int x = 0; x < box.extent(0); ++x) {
+        const auto n = static_cast<std::size_t>(x);
+        const Index3 cell{box.lo[0] + x, box.lo[1] + y, box.lo[2] + z};
+        if (core_->is_solid(x, y, z)) {
+          visit(cell, {}, 1);
+          continue;
+        }
+        const PartialSolidCell solids = core_->partial_solid(x, y, z);
+        const Vec3 momentum(row.momentum[0][n], row.momentum[1][n], row.momentum[2][n]);
+        visit(cell, core_->point_of(row.deviation[n], momentum, solids), std::min(1., solids.fraction));
+      }
+    }
 }
 
 double Fluid::population(int direction, const Index3& cell) const {
@@ -185,17 +200,12 @@ Vec3 Fluid::momentum() const {
 
 FluidExtremes Fluid::extremes() const {
   double speed_squared = 0, high = -1e300, minus_low = -1e300, broken = 0;
-  std::vector<FluidPoint> row;
-  for_each_row(local_cells(*core_), [&](int y, int z) {
-    core_->read_row(y, z, row);
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      if (core_->is_solid(static_cast<int>(x), y, z)) continue;
-      const FluidPoint& point = row[x];
-      if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
-      speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
-      high = std::max(high, point.density);
-      minus_low = std::max(minus_low, -point.density);
-    }
+  for_each_point([&](const Index3& cell, const FluidPoint& point, double) {
+    if (is_solid(cell)) return;
+    if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
+    speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
+    high = std::max(high, point.density);
+    minus_low = std::max(minus_low, -point.density);
   });
   const double mine[4] = {speed_squared, high, minus_low, broken};
   double all[4];

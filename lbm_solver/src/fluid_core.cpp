@@ -41,17 +41,6 @@ FluidPoint FluidCoreBase::point_of(double deviation, const Vec3& momentum,
   return {1 + deviation, (1 - weight) * momentum / density + weight * solids.momentum / solids.strength};
 }
 
-void FluidCoreBase::read_row(int y, int z, std::vector<FluidPoint>& points) const {
-  add_up_row(y, z, row_);
-  points.resize(row_.deviation.size());
-  for (std::size_t x = 0; x < points.size(); ++x) {
-    const int cell = static_cast<int>(x);
-    const Vec3 momentum(row_.momentum[0][x], row_.momentum[1][x], row_.momentum[2][x]);
-    points[x] = is_solid(cell, y, z) ? FluidPoint{}
-                                     : point_of(row_.deviation[x], momentum, partial_solid(cell, y, z));
-  }
-}
-
 template <class T>
 FluidCore<T>::FluidCore(const FluidSettings& s, const Decomposition& d)
     : FluidCoreBase(s, d), populations_(d.local_box().extents()), halo_(d, s.faces), patches_(d, s.faces) {}
@@ -231,18 +220,33 @@ double FluidCore<T>::population(int direction, int x, int y, int z) const {
 }
 
 template <class T>
-void FluidCore<T>::add_up_row(int y, int z, RowMoments& row) const {
-  const auto cells = static_cast<std::size_t>(populations_.cells()[0]);
-  row.deviation.assign(cells, 0);
-  for (int a = 0; a < 3; ++a) row.momentum[a].assign(cells, 0.5 * force[a]);
-  for (int i = 0; i < kDirections; ++i) {
-    const T* from = populations_.slot(odd ? opposite(i) : i) + place(i, 0, y, z);
-    for (std::size_t x = 0; x < cells; ++x) row.deviation[x] += static_cast<double>(from[x]);
-    for (int a = 0; a < 3; ++a) {
-      if (kVelocity[i][a] == 0) continue;
-      for (std::size_t x = 0; x < cells; ++x)
-        row.momentum[a][x] += kVelocity[i][a] * static_cast<double>(from[x]);
+void FluidCore<T>::moments_of_row(int y, int z, RowMoments& moments) const {
+  constexpr int block = 8;  // cells whose sums stay in registers
+  const T* rows[kDirections];
+  for (int i = 0; i < kDirections; ++i)
+    rows[i] = populations_.slot(odd ? opposite(i) : i) + place(i, 0, y, z);
+  const int n = populations_.cells()[0];
+  moments.resize(static_cast<std::size_t>((n + block - 1) / block * block));
+  for (int begin = 0; begin < n; begin += block) {
+    double deviation[block] = {}, momentum[3][block];
+    for (int a = 0; a < 3; ++a) std::fill_n(momentum[a], block, 0.5 * force[a]);
+    double g[block] = {};
+    for (int i = 0; i < kDirections; ++i) {
+      const T* row = rows[i] + begin;
+      if (begin + block <= n)
+        for (int x = 0; x < block; ++x) g[x] = static_cast<double>(row[x]);
+      else
+        for (int x = 0; x < n - begin; ++x) g[x] = static_cast<double>(row[x]);
+      for (int x = 0; x < block; ++x) deviation[x] += g[x];
+      for (int a = 0; a < 3; ++a) {
+        const double along = kVelocity[i][a];
+        if (along == 0) continue;
+        for (int x = 0; x < block; ++x) momentum[a][x] += along * g[x];
+      }
     }
+    std::copy_n(deviation, block, &moments.deviation[static_cast<std::size_t>(begin)]);
+    for (int a = 0; a < 3; ++a)
+      std::copy_n(momentum[a], block, &moments.momentum[a][static_cast<std::size_t>(begin)]);
   }
 }
 

@@ -13,11 +13,6 @@
 
 namespace suffuse::lbm {
 
-/// Of the cells of a row: mass less that at rest, and momentum.
-struct RowMoments {
-  std::vector<double> deviation, momentum[3];
-};
-
 /// What Fluid hides: the same for both storage types. Cells here are local: 0 <= x < extent of the sub-box.
 class FluidCoreBase {
  public:
@@ -38,12 +33,20 @@ class FluidCoreBase {
   virtual std::size_t bytes() const = 0;
   virtual void bare_update() = 0;
 
-  /// Sums over the populations of row y, z, as `at` forms them.
-  virtual void add_up_row(int y, int z, RowMoments& row) const = 0;
-
   FluidPoint at(int x, int y, int z) const;
-  /// `at` of all cells of a row, several times as fast.
-  void read_row(int y, int z, std::vector<FluidPoint>& points) const;
+
+  /// Deviation from density one and momentum of the populations of each cell of a row, half of the force
+  /// included; solids are not looked at.
+  struct RowMoments {
+    std::vector<double> deviation, momentum[3];
+    void resize(std::size_t cells) {
+      deviation.resize(cells);
+      for (auto& component : momentum) component.resize(cells);
+    }
+  };
+  virtual void moments_of_row(int y, int z, RowMoments& moments) const = 0;
+  /// What `at` is in a cell that is no solid, from its moments and what covers it in part.
+  FluidPoint point_of(double deviation, const Vec3& momentum, const PartialSolidCell& solids) const;
 
   FluidSettings settings;
   Decomposition decomposition;
@@ -52,11 +55,6 @@ class FluidCoreBase {
   long steps = 0;
   std::optional<PartialSolidSettings> partial_solids;
   bool odd = false;  ///< the next step is an odd one of the AA pattern
-
- private:
-  FluidPoint point_of(double deviation, const Vec3& momentum, const PartialSolidCell& solids) const;
-
-  mutable RowMoments row_;
 };
 
 /// The populations of one rank and the four parts of a step: kernel, halo exchange, faces, solids.
@@ -69,7 +67,7 @@ class FluidCore final : public FluidCoreBase {
   int rows_per_block() const override;
   void bare_update() override;
   double population(int direction, int x, int y, int z) const override;
-  void add_up_row(int y, int z, RowMoments& row) const override;
+  void moments_of_row(int y, int z, RowMoments& moments) const override;
   void set_population(int direction, int x, int y, int z, double value) override;
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of) override;
   PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings) override;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "suffuse/common/error.h"
 
@@ -62,22 +63,30 @@ std::vector<ExpectedValue> read_expected_values(std::istream& file, const std::s
 
 std::string comparison_table(const std::vector<MeasuredValue>& measured,
                              const std::vector<ExpectedValue>& expected, std::string_view case_name) {
+  constexpr const char* row = "{:<36} {:>12} {:>12} {:>10} {:>4} {:>9}  {}\n";
+  const auto number = [](double value) { return fmt::format("{:.5g}", value); };
   std::string table =
-      fmt::format("{:<32} {:>12} {:>12} {:>9}  {}\n", "quantity", "measured", "expected", "diff %", "source");
+      fmt::format(row, "quantity", "measured", "expected", "allowed", "ok", "diff %", "source");
   for (const MeasuredValue& m : measured) {
     const auto match = std::find_if(expected.begin(), expected.end(), [&](const ExpectedValue& e) {
       return e.case_name == case_name && e.quantity == m.quantity;
     });
     if (match == expected.end()) {
-      table += fmt::format("{:<32} {:>12.5g} {:>12} {:>9}\n", m.quantity, m.value, "-", "-");
+      table += fmt::format(row, m.quantity, number(m.value), "-", "-", "-", "-", "");
       continue;
     }
     const std::string label =
         match->unit == "-" ? m.quantity : fmt::format("{} [{}]", m.quantity, match->unit);
     const std::string difference =
         match->value != 0 ? fmt::format("{:+.1f}", 100 * (m.value / match->value - 1)) : std::string("-");
-    table += fmt::format("{:<32} {:>12.5g} {:>12.5g} {:>9}  {}\n", label, m.value, match->value, difference,
-                         match->source);
+    const bool judged = match->tolerance > 0;
+    const bool within = std::abs(m.value - match->value) <= match->tolerance;
+    table += fmt::format(row, label, number(m.value), number(match->value),
+                         judged ? fmt::format("{:.3g}", match->tolerance) : "-",
+                         !judged  ? "-"
+                         : within ? "yes"
+                                  : "NO",
+                         difference, match->source);
   }
   return table;
 }

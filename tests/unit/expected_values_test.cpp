@@ -34,3 +34,14 @@ TEST_CASE("the comparison gives the difference in per cent, and a dash for what 
   CHECK(table.find("Table 5.1") != std::string::npos);
   CHECK(table.find("beta") != std::string::npos);
 }
+
+TEST_CASE("the comparison says which values keep their tolerance") {
+  const auto said = [](double measured, double tolerance) {
+    const std::string table =
+        comparison_table({{"porosity", measured}}, {{"A", "porosity", 0.2, tolerance, "-", "text"}}, "A");
+    return std::pair(table.find(" yes ") != std::string::npos, table.find(" NO ") != std::string::npos);
+  };
+  CHECK(said(0.21, 0.011) == std::pair(true, false));
+  CHECK(said(0.19, 0.009) == std::pair(false, true));
+  CHECK(said(0.19, 0) == std::pair(false, false));
+}

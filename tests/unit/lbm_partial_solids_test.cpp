@@ -71,6 +71,12 @@ double largest_difference(const FluidSettings& settings, const PartialSolidSetti
               [&](const auto& h) { note(h[a][place(x, y, z)] - plain.exchange(cell)[static_cast<int>(a)]); },
               arrays.exchange);
     });
+    fast.for_each_point([&](const Index3& cell, const FluidPoint& point, double solid_fraction) {
+      const FluidPoint alone = fast.at(cell);
+      const bool same = point.density == alone.density && point.velocity == alone.velocity &&
+                        solid_fraction == fast.solid_fraction(cell);
+      if (!same) worst = 1e300;
+    });
   }
   return worst;
 }

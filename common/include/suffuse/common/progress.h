@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace suffuse {
@@ -11,11 +12,11 @@ class ProgressLine {
  public:
   explicit ProgressLine(bool speaks);
 
-  /// `done` in 0..1; `details` is whatever the run wants to show besides per cent and time left. At most
-  /// twice a second on a terminal.
-  void update(double done, const std::string& details);
-  /// Ends the line; prints it a last time.
-  void finish(const std::string& details);
+  /// `done` in 0..1; `details` gives whatever the run wants to show besides per cent and time left, and is
+  /// only called to be shown. At most twice a second on a terminal.
+  void update(double done, const std::function<std::string()>& details);
+  /// Ends the line; prints it a last time. `done` is less than 1 where the run was cut short.
+  void finish(const std::string& details, double done = 1);
 
  private:
   using Clock = std::chrono::steady_clock;

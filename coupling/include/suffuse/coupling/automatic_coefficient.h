@@ -64,10 +64,17 @@ class PoreSurvey {
   /// What `update` found, laid out as the fractions; null before.
   const float* coefficients() const { return surface_.empty() ? nullptr : surface_.data(); }
 
+  /// The same cell by cell, x fastest; empty before.
+  std::vector<float> values() const;
+  void set_values(const std::vector<float>& values);
+
   /// Memory that is held from the first survey on.
   std::size_t bytes() const { return (surface_.capacity() + solid_.capacity()) * sizeof(float); }
 
  private:
+  std::size_t values_held() const;
+  std::size_t place(int x, int y, int z) const;
+
   lbm::InstructionSet instruction_set_;
   std::ptrdiff_t row_pitch_, plane_pitch_;
   lbm::CellBox box_;

@@ -68,9 +68,10 @@ class CoupledSimulation {
   double solid_coefficient(const lbm::Index3& cell) const;
   /// Memory that this rank holds for fluid and solids.
   std::size_t bytes() const { return fluid_.bytes() + mapping_.bytes() + pores_.bytes(); }
-  /// Finds automatic coefficients anew before the next step. After a checkpoint: the run that goes on and the
-  /// one that starts from it have the same then.
-  void survey_again() { surveyed_grains_ = -1; }
+  /// What the pores add to automatic coefficients in each cell of this rank, x fastest; empty before a survey
+  /// and without them. A saved state needs it, for the grains have moved on since.
+  std::vector<float> pore_coefficients() const { return pores_.values(); }
+  void set_pore_coefficients(const std::vector<float>& values);
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 
@@ -106,7 +107,9 @@ class CoupledSimulation {
   CoefficientLaw law_;
   int substeps_ = 1;
   std::size_t remapped_ = 0;
-  long surveys_ = 0, surveyed_grains_ = -1;
+  static constexpr long kNever = -1, kWhoeverIsThere = -2;
+  long surveys_ = 0;
+  long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
   bool loads_are_current_ = true;
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;

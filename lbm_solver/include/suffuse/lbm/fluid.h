@@ -99,8 +99,12 @@ class Fluid {
   /// Density and velocity of a cell of this rank; a solid cell is at rest at density one, a partly covered
   /// one moves at (1-B) u + B us.
   FluidPoint at(const Index3& cell) const;
-  /// The same of all of this rank's cells with the indices y and z, along x: for whoever reads many.
-  void read_row(int y, int z, std::vector<FluidPoint>& points) const;
+
+  /// Visits the cells of this rank with what `at` and `solid_fraction` give for them, to the last digit:
+  /// several times faster than one by one.
+  using PointVisitor =
+      std::function<void(const Index3& cell, const FluidPoint& point, double solid_fraction)>;
+  void for_each_point(const PointVisitor& visit) const;
 
   /// The population that a cell of this rank is about to collide, less its weight.
   double population(int direction, const Index3& cell) const;

@@ -34,11 +34,4 @@ void for_each_cell(const CellBox& box, Body&& body) {
       for (int x = box.lo[0]; x < box.hi[0]; ++x) body(x, y, z);
 }
 
-/// Calls body(y, z) for every row of the box, y before z.
-template <class Body>
-void for_each_row(const CellBox& box, Body&& body) {
-  for (int z = box.lo[2]; z < box.hi[2]; ++z)
-    for (int y = box.lo[1]; y < box.hi[1]; ++y) body(y, z);
-}
-
 }  // namespace suffuse::lbm

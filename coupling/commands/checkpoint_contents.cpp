@@ -1,0 +1,155 @@
+#include "checkpoint_contents.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+constexpr const char* kSettings = "/settings";
+constexpr const char* kReferences = "/monitor_references";
+constexpr const char* kPoreCoefficients = "/pore_coefficients";
+
+/// This rank's cells in an array (z, y, x).
+ArrayPart cells_of(const lbm::Decomposition& d) {
+  ArrayPart part;
+  for (const std::size_t a : {2, 1, 0}) {
+    part.whole.push_back(static_cast<std::size_t>(d.cells()[a]));
+    part.offset.push_back(static_cast<std::size_t>(d.local_box().lo[a]));
+    part.count.push_back(static_cast<std::size_t>(d.local_box().extent(static_cast<int>(a))));
+  }
+  return part;
+}
+
+/// One setting as text: ten digits tell two scripts apart, not two ways to round.
+struct Setting {
+  std::string line, name, value;
+};
+
+std::string number(double value) {
+  return fmt::format("{:.10g}", value);
+}
+
+std::string fraction_text(const SolidSettings& solids) {
+  switch (solids.fraction) {
+    case FractionMethod::exact:
+      return "exact";
+    case FractionMethod::linear:
+      return "linear";
+    case FractionMethod::subcells:
+      return fmt::format("subcells {}", solids.subcells);
+  }
+  return "";
+}
+
+std::string coefficient_text(const SolidSettings& solids) {
+  if (solids.cells.weighting != lbm::SolidWeighting::viscosity_independent) return "none";
+  return solids.automatic_coefficient ? "auto" : number(solids.cells.coefficient);
+}
+
+std::string switch_text(Switch value) {
+  return value == Switch::off ? "off" : "on";
+}
+
+std::vector<Setting> settings_of(const CoupledSimulation& simulation) {
+  const lbm::Units& units = simulation.units();
+  const lbm::CollisionSettings& collision = simulation.fluid().settings().collision;
+  const SolidSettings& solids = simulation.settings().solids;
+  const EffectSettings& effects = simulation.settings().effects;
+  const bool two_times = collision.collision_operator == lbm::CollisionOperator::trt;
+  std::vector<Setting> settings{
+      {"fluid", "density", number(units.density())},
+      {"fluid", "viscosity", number(units.viscosity_si())},
+      {"lattice", "spacing", number(units.spacing())},
+      {"lattice", "relaxation_time", number(units.relaxation_time())},
+      {"collision", "operator", name_of(collision.collision_operator)},
+      {"collision", "magic", two_times ? number(collision.magic) : "none"},
+      {"collision", "incompressible", collision.incompressible ? "yes" : "no"},
+      {"solid", "operator", name_of(solids.cells.solid_operator)},
+      {"solid", "weighting", name_of(solids.cells.weighting)},
+      {"solid", "coefficient", coefficient_text(solids)},
+      {"solid", "fraction", fraction_text(solids)},
+      {"effect", "turbulence", collision.smagorinsky > 0 ? "on " + number(collision.smagorinsky) : "off"},
+      {"effect", "lubrication", switch_text(effects.lubrication)},
+      {"effect", "buoyancy", switch_text(effects.buoyancy)},
+      {"effect", "rotation", switch_text(effects.rotation)}};
+  for (int a = 0; a < 3; ++a)
+    settings.push_back({"lattice", fmt::format("low corner along {}", "xyz"[a]),
+                        fmt::format("{:.6g} cells", simulation.origin()[a] / units.spacing())});
+  return settings;
+}
+
+std::string key(const Setting& setting) {
+  return setting.line + " " + setting.name;
+}
+
+}  // namespace
+
+void save_settings(Hdf5File& file, const CoupledSimulation& simulation) {
+  file.create_group(kSettings);
+  for (const Setting& setting : settings_of(simulation))
+    file.set_attribute(kSettings, key(setting), setting.value);
+}
+
+bool require_same_settings(const std::string& path, const CoupledSimulation& simulation) {
+  const Hdf5File file(path, Hdf5File::Mode::read, simulation.fluid().decomposition().communicator());
+  if (!file.exists(kSettings)) return false;
+  for (const Setting& setting : settings_of(simulation)) {
+    const std::string saved = file.text_attribute(kSettings, key(setting));
+    if (saved != setting.value)
+      throw_user_error(
+          {"lbm restart read " + path, key(setting), setting.value,
+           fmt::format("be {}, as it was saved", saved),
+           fmt::format("write the same `lbm {}`; values of boundary and force, couple, monitor, output "
+                       "and restart write may differ",
+                       setting.line)});
+  }
+  return true;
+}
+
+void save_pore_coefficients(Hdf5File& file, const CoupledSimulation& simulation) {
+  const std::vector<float> values = simulation.pore_coefficients();
+  if (values.empty()) return;
+  const ArrayPart cells = cells_of(simulation.fluid().decomposition());
+  file.create_array<float>(kPoreCoefficients, cells.whole);
+  file.write(kPoreCoefficients, cells, values);
+}
+
+void load_pore_coefficients(const std::string& path, CoupledSimulation& simulation) {
+  const lbm::Decomposition& d = simulation.fluid().decomposition();
+  const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
+  if (!simulation.settings().solids.automatic_coefficient || !file.exists(kPoreCoefficients)) return;
+  simulation.set_pore_coefficients(file.read<float>(kPoreCoefficients, cells_of(d)));
+}
+
+void save_references(Hdf5File& file, const MonitorReferences& references, MPI_Comm communicator) {
+  int rank = 0;
+  MPI_Comm_rank(communicator, &rank);
+  file.create_group(kReferences);
+  int n = 0;
+  for (const auto& [columns, values] : references) {
+    if (values.empty()) continue;
+    const std::string array = fmt::format("{}/{}", kReferences, n++);
+    file.create_array<double>(array, {values.size()});
+    const std::vector<double> mine = rank == 0 ? values : std::vector<double>{};  // the same on all ranks
+    file.write(array, {{values.size()}, {0}, {mine.size()}}, mine);
+    file.set_attribute(array, "columns", columns);
+  }
+}
+
+MonitorReferences load_references(const std::string& path, MPI_Comm communicator) {
+  const Hdf5File file(path, Hdf5File::Mode::read, communicator);
+  MonitorReferences references;
+  if (!file.exists(kReferences)) return references;
+  for (const std::string& name : file.names_in(kReferences)) {
+    const std::string array = fmt::format("{}/{}", kReferences, name);
+    const std::size_t count = file.extents(array).at(0);
+    references[file.text_attribute(array, "columns")] = file.read<double>(array, {{count}, {0}, {count}});
+  }
+  return references;
+}
+
+}  // namespace suffuse::coupling
