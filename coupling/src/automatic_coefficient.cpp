@@ -36,11 +36,11 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
 }
 
 double expected_permeability_error(double cells_per_sauter_diameter) {
-  return error_at(cells_per_sauter_diameter, 0.065, 0.03);
+  return error_at(cells_per_sauter_diameter, 0.016, 0.009);
 }
 
 double largest_permeability_error(double cells_per_sauter_diameter) {
-  return error_at(cells_per_sauter_diameter, 0.185, 0.066);
+  return error_at(cells_per_sauter_diameter, 0.048, 0.02);
 }
 
 PoreSurvey::PoreSurvey(lbm::InstructionSet instruction_set, const lbm::PartialSolidArrays& arrays,
