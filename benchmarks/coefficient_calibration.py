@@ -28,7 +28,7 @@ FITTED = [f"random:{phi}:{count}" for count in ("64:21", "16:1", "16:11") for ph
 HELD_OUT = [f"random:{phi}:64:31" for phi in (0.2, 0.3, 0.4, 0.5, 0.58, 0.62)] + [
     "spread:0.5:64:31:0.25", "spread:0.58:64:31:0.4", "appendix_c:0.6:11"]
 TAU = {"force": "1", "sc3": "0.8", "interpolated": "1"}  # `force` and `interpolated` do not depend on it
-START = {"force": [1.42, 2.887, 17.52, 38.11], "sc3": [0.6, 2.5, 6, 35]}
+START = {"force": [1.87, 2.83, 10.2, 65.5], "sc3": [0.6, 2.5, 6, 35]}
 # Errors allowed at these diameters, per cent, with which the fit's residuals are weighed: what is asked of packings, and
 # of arrays, which no soil is.
 ALLOWED = {"packing": [(5, 3.0), (8, 2.0), (12, 1.5)], "array": [(5, 10.0), (8, 4.5), (12, 2.5)]}

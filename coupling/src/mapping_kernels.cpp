@@ -9,8 +9,8 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 namespace {
 
-/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-18 (up to 16).
-constexpr float kFractionRounding = 3.f, kStrengthRounding = 48.f;
+/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-16 (up to 64).
+constexpr float kFractionRounding = 3.f, kStrengthRounding = 192.f;
 
 /// The rows of a block that a sphere reaches.
 struct Slice {

@@ -10,7 +10,7 @@ namespace suffuse::coupling {
 inline constexpr float kLeastLinearRadius = 1;
 
 /// A cell's coefficient is cut here where spheres and pores bring their own.
-inline constexpr float kLargestCellCoefficient = 15;
+inline constexpr float kLargestCellCoefficient = 60;
 
 /// How fractions are written.
 struct FractionRule {

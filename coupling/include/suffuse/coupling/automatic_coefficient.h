@@ -29,7 +29,7 @@ struct CoefficientLaw {
 };
 
 /// Coefficients beyond this are cut: strengths add up exactly in any order up to here.
-inline constexpr double kLargestCoefficient = 15;
+inline constexpr double kLargestCoefficient = 60;
 
 /// The law of an operator. A UserError for one that has none: `force` and `sc3` do.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
