@@ -28,7 +28,7 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
     case lbm::SolidOperator::force:
       return {1.76, 2.2, 13.3, 54.5};
     case lbm::SolidOperator::sc3:
-      return {0.64, 2.43, 7.36, 30.4};
+      return {0.64, 2.25, 7.6, 30.1};
     default:
       throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
                         "give a number, or change the operator"});
