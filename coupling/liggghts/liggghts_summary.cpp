@@ -1,0 +1,167 @@
+// What LiggghtsPort tells of LIGGGHTS's box and of its grains as a whole.
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "lammps.h"
+#include "liggghts_port.h"
+#include "styles/fix_hydrodynamic_force.h"
+#include "suffuse/common/error.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
+#include "timer.h"
+#include "update.h"
+
+namespace suffuse::coupling {
+
+using LAMMPS_NS::bigint;
+
+void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {
+  const auto* domain = lmp_->domain;
+  if (domain->triclinic != 0)
+    throw_user_error({"lbm run", "box", "triclinic", "be orthogonal", "use a `region ... block`"});
+  for (int f = 0; f < lbm::kFaces; ++f) {
+    const int axis = f / 2;
+    const std::string name = lbm::name_of(static_cast<lbm::Face>(f));
+    const bool fluid = faces[static_cast<std::size_t>(f)].kind == lbm::FaceKind::periodic;
+    if (fluid != (domain->periodicity[axis] != 0))
+      throw_user_error({"lbm boundary", name, lbm::name_of(faces[static_cast<std::size_t>(f)].kind),
+                        fmt::format("agree with LIGGGHTS's `boundary`, which is {}periodic along {}",
+                                    fluid ? "not " : "", "xyz"[axis]),
+                        fluid ? "write `boundary ... p` for this axis, or give the face another kind"
+                              : "write `boundary ... f` for this axis, or make both of its faces periodic"});
+    if (domain->boundary[axis][f % 2] > 1)
+      throw_user_error({"lbm run", "boundary", "shrink-wrapped", "be fixed (f) or periodic (p)",
+                        "write `boundary f f f`: the fluid's box does not move"});
+  }
+}
+
+void LiggghtsPort::check_unchanged() const {
+  const auto* domain = lmp_->domain;
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box_[a] != domain->boxlo[a] || box_[a + 3] != domain->boxhi[a])
+      throw_user_error({"lbm run", "box", "deforming", "keep its size while there is a fluid",
+                        "unfix the servo or `fix deform` before, or end the fluid with `lbm clear`"});
+}
+
+Vec3 LiggghtsPort::box_low() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->boxlo);
+}
+
+Vec3 LiggghtsPort::box_high() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->boxhi);
+}
+
+Vec3 LiggghtsPort::box_size() const {
+  return Eigen::Map<const Vec3>(lmp_->domain->prd);
+}
+
+lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
+                                               const lbm::Index3& cells) const {
+  const auto* comm = lmp_->comm;
+  const double* splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
+  std::array<std::vector<int>, 3> cuts;
+  for (int a = 0; a < 3; ++a) {
+    auto& planes = cuts[static_cast<std::size_t>(a)];
+    const auto n = cells[static_cast<std::size_t>(a)];
+    for (int i = 0; i <= comm->procgrid[a]; ++i) {
+      const double plane = lmp_->domain->boxlo[a] + splits[a][i] * lmp_->domain->prd[a];
+      planes.push_back(std::clamp(static_cast<int>(std::lround((plane - low[a]) / spacing)), 0, n));
+    }
+    planes.front() = 0;
+    planes.back() = n;
+  }
+  return lbm::Decomposition::from_cuts(lmp_->world, cuts, [comm](const lbm::Index3& place) {
+    return comm->grid2proc[place[0]][place[1]][place[2]];
+  });
+}
+
+LiggghtsPort::Summary LiggghtsPort::summary() const {
+  const auto* atom = lmp_->atom;
+  struct {
+    double grains, radius_squared, volume, energy, load[3];
+  } sums{};
+  struct {
+    double minus_radius, radius, minus_density, density, high[3], minus_low[3];
+  } extremes;
+  std::fill_n(&extremes.minus_radius, sizeof extremes / sizeof(double), -1e300);
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & fix_->groupbit) == 0) continue;
+    const double r = atom->radius[i], volume = sphere_volume(r), density = atom->rmass[i] / volume;
+    sums.grains += 1;
+    sums.radius_squared += r * r;
+    sums.volume += volume;
+    sums.energy += 0.5 * atom->rmass[i] *
+                   (Eigen::Map<const Vec3>(atom->v[i]).squaredNorm() +
+                    0.4 * r * r * Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
+    extremes.minus_radius = std::max(extremes.minus_radius, -r);
+    extremes.radius = std::max(extremes.radius, r);
+    extremes.minus_density = std::max(extremes.minus_density, -density);
+    extremes.density = std::max(extremes.density, density);
+    for (int a = 0; a < 3; ++a) {
+      sums.load[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+      extremes.high[a] = std::max(extremes.high[a], atom->x[i][a] + r);
+      extremes.minus_low[a] = std::max(extremes.minus_low[a], r - atom->x[i][a]);
+    }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &sums, sizeof sums / sizeof(double), MPI_DOUBLE, MPI_SUM, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, &extremes, sizeof extremes / sizeof(double), MPI_DOUBLE, MPI_MAX, lmp_->world);
+  Summary summary;
+  summary.grains = static_cast<std::int64_t>(sums.grains);
+  if (summary.grains == 0) return summary;
+  summary.solid_volume = sums.volume;
+  summary.sauter_diameter = 6 * sums.volume / (4 * M_PI * sums.radius_squared);
+  summary.smallest_radius = -extremes.minus_radius;
+  summary.largest_radius = extremes.radius;
+  summary.smallest_density = -extremes.minus_density;
+  summary.largest_density = extremes.density;
+  summary.kinetic_energy = sums.energy;
+  summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
+  for (int a = 0; a < 3; ++a)
+    summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  summary.packing = sums.volume / summary.extent.prod();
+  if (summary.grains == 1)  // fills the box around it, whatever it does
+    summary.packing = sums.volume / (lmp_->domain->prd[0] * lmp_->domain->prd[1] * lmp_->domain->prd[2]);
+  return summary;
+}
+
+std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& bounds) const {
+  std::vector<double> counts(bounds.size() + 1, 0);
+  for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+    if ((lmp_->atom->mask[i] & fix_->groupbit) == 0) continue;
+    const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * lmp_->atom->radius[i]);
+    counts[static_cast<std::size_t>(above - bounds.begin())] += 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_DOUBLE, MPI_SUM,
+                lmp_->world);
+  return counts;
+}
+
+Vec3 LiggghtsPort::mean_load(int groupbit) const {
+  double sums[4] = {0, 0, 0, 0};
+  for (int i = 0; i < lmp_->atom->nlocal; ++i) {
+    if ((lmp_->atom->mask[i] & groupbit & fix_->groupbit) == 0) continue;
+    for (int a = 0; a < 3; ++a) sums[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+    sums[3] += 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  return Vec3(sums[0], sums[1], sums[2]) / std::max(1., sums[3]);
+}
+
+PastRun LiggghtsPort::past_run() const {
+  // Verlet leaves the loop's wall time in the timer, and `run` the number of steps.
+  const double steps = lmp_->update->nsteps;
+  double seconds = lmp_->timer->array[TIME_LOOP];
+  MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, lmp_->world);
+  const double grains = static_cast<double>(lmp_->atom->natoms);
+  constexpr double least_seconds = 0.1;
+  if (!(seconds > least_seconds) || steps * grains <= 0) return {};
+  return {steps * grains, seconds};
+}
+
+}  // namespace suffuse::coupling
