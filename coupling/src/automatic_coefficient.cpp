@@ -26,9 +26,9 @@ double CoefficientLaw::operator()(double diameter, double surface_per_pore) cons
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
   switch (solid_operator) {
     case lbm::SolidOperator::force:
-      return {1.87, 2.83, 10.2, 65.5};
+      return {1.76, 2.2, 13.3, 54.5};
     case lbm::SolidOperator::sc3:
-      return {0.64, 2.43, 7.36, 30.4};
+      return {0.64, 2.25, 7.6, 30.1};
     default:
       throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
                         "give a number, or change the operator"});
@@ -36,11 +36,11 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
 }
 
 double expected_permeability_error(double cells_per_sauter_diameter) {
-  return error_at(cells_per_sauter_diameter, 0.065, 0.03);
+  return error_at(cells_per_sauter_diameter, 0.015, 0.009);
 }
 
 double largest_permeability_error(double cells_per_sauter_diameter) {
-  return error_at(cells_per_sauter_diameter, 0.185, 0.066);
+  return error_at(cells_per_sauter_diameter, 0.049, 0.022);
 }
 
 PoreSurvey::PoreSurvey(lbm::InstructionSet instruction_set, const lbm::PartialSolidArrays& arrays,

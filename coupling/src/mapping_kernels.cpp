@@ -9,8 +9,8 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 namespace {
 
-/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-18 (up to 16).
-constexpr float kFractionRounding = 3.f, kStrengthRounding = 48.f, kLargestStrength = 15.f;
+/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-16 (up to 64).
+constexpr float kFractionRounding = 3.f, kStrengthRounding = 192.f;
 
 /// The rows of a block that a sphere reaches.
 struct Slice {
@@ -69,7 +69,7 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
       Floats strength = fraction;
       if constexpr (kOwn) {
         const Floats pore = arrays.pore_coefficient ? load(arrays.pore_coefficient + cell) : Floats{};
-        const Floats k = lesser(coefficient + pore, Floats{} + kLargestStrength);
+        const Floats k = lesser(coefficient + pore, Floats{} + kLargestCellCoefficient);
         strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
       }
       store(entries, strength);

@@ -9,6 +9,9 @@ namespace suffuse::coupling {
 /// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
 inline constexpr float kLeastLinearRadius = 1;
 
+/// A cell's coefficient is cut here where spheres and pores bring their own.
+inline constexpr float kLargestCellCoefficient = 60;
+
 /// How fractions are written.
 struct FractionRule {
   FractionMethod method = FractionMethod::exact;

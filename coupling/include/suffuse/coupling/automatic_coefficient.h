@@ -14,9 +14,10 @@ namespace suffuse::coupling {
 ///   k = constant + single/D + crowded s/6 + narrow (s/6)^2,  at most kLargestCoefficient,
 ///
 /// where s is the surface of grains per volume of pore around the cell, 1/cells: 6/s is the diameter of a
-/// sphere with as much surface per volume as the pore has. In a packing of equal spheres the mean of D s/6 is
-/// about phi/(1 - phi). Calibrated so that the permeability of arrays and random packings is right at 5 to 20
-/// cells a diameter (docs/decisions/solid-operator.md); valid for D >= 2.
+/// sphere with as much surface per volume as the pore has. D s/6 is 0.44 at the surface of a lone sphere, and
+/// 0.6 to 1.5 in the mean of packings from phi = 0.2 to 0.62. Calibrated so that the permeability of arrays
+/// and random packings is right at 5 to 20 cells a diameter (docs/decisions/solid-operator.md); valid for D
+/// >= 2.
 struct CoefficientLaw {
   double constant = 0, single = 0, crowded = 0, narrow = 0;
 
@@ -28,14 +29,14 @@ struct CoefficientLaw {
 };
 
 /// Coefficients beyond this are cut: strengths add up exactly in any order up to here.
-inline constexpr double kLargestCoefficient = 15;
+inline constexpr double kLargestCoefficient = 60;
 
 /// The law of an operator. A UserError for one that has none: `force` and `sc3` do.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
 /// Error of a packing's permeability (a share: 0.03 is 3 %) to be expected with `force`, the automatic
-/// coefficient and so many cells a Sauter diameter: root mean square, and the largest, of what packings show
-/// that were not fitted, 16 to 64 spheres in a periodic box (docs/decisions/solid-operator.md). Measured at 5
+/// coefficient and so many cells a Sauter diameter: root mean square, and the largest, of what packings show,
+/// fitted and not, 16 to 64 spheres in a periodic box (docs/decisions/solid-operator.md). Measured at 5
 /// and 8 cells, a power of the resolution between; extrapolated, hence a guess, below 5; beyond 8 as at 8,
 /// where the references are hardly better.
 double expected_permeability_error(double cells_per_sauter_diameter);

@@ -15,7 +15,7 @@ struct LatticeSphere {
   double radius = 0;
   double velocity[3]{};
   double angular_velocity[3]{};  ///< radians a step
-  double coefficient = 1;        ///< k of the viscosity-independent weighting, used with own_coefficients
+  double coefficient = 1;        ///< the sphere's part of k, used with own_coefficients
   int id = 0;
 };
 
