@@ -170,6 +170,7 @@ TEST_CASE("Coefficients are the same to the last digit on any number of ranks") 
 TEST_CASE("Pores are surveyed when a grain comes or has moved, and only then") {
   CoupledSettings settings = cells_as_metres();
   settings.solids.survey_every = 5;
+  settings.solids.survey_distance = 0.25;
   std::vector<PrescribedGrains::Grain> list = grains_at({Vec3(6, 8, 8), Vec3(17, 8, 8)}, {3, 3});
   list[1].velocity = Vec3(-0.04, 0, 0);
   PrescribedGrains grains(list, Vec3(30, 16, 16), {true, true, true}, 1.);

@@ -15,11 +15,12 @@ struct SolidSettings {
   lbm::PartialSolidSettings cells;
   /// Calibrated, from each grain's diameter and the pores around it; with the viscosity-independent weighting
   /// only. Found anew when grains come, and at steps that are multiples of `survey_every` if a grain has
-  /// moved by `survey_distance` (cells) since.
+  /// moved by `survey_distance` (cells) since: the coefficients stay where they are while grains move on.
+  /// Grains of a dense packing that are a cell further feel 0.5 % less drag, two and a half cells 3 %.
   bool automatic_coefficient = true;
   std::optional<CoefficientLaw> law;  ///< else coefficient_law of the operator
-  int survey_every = 50;
-  double survey_distance = 0.25;
+  int survey_every = 10;
+  double survey_distance = 0.4;
   FractionMethod fraction = FractionMethod::exact;
   int subcells = 5;              ///< per edge, for FractionMethod::subcells
   double remap_distance = 1e-3;  ///< cells: a grain that moved less is not mapped again
