@@ -4,11 +4,9 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "atom.h"
-#include "comm.h"
 #include "domain.h"
 #include "fix.h"
 #include "integrate.h"
@@ -21,7 +19,6 @@
 #include "styles/fix_hydrodynamic_force.h"
 #include "styles/style_support.h"
 #include "suffuse/common/error.h"
-#include "suffuse/coupling/hydrodynamic_load.h"
 #include "timer.h"
 #include "update.h"
 

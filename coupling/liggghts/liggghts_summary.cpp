@@ -20,6 +20,7 @@
 namespace suffuse::coupling {
 
 using LAMMPS_NS::bigint;
+using LAMMPS_NS::FixHydrodynamicForce;
 
 void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {
   const auto* domain = lmp_->domain;
