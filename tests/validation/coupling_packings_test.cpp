@@ -54,6 +54,14 @@ TEST_CASE(
   CHECK(std::abs(error_percent("random:0.5:16:11", 8, {})) < 100 * largest_permeability_error(8));
 }
 
+TEST_CASE("A coarse lattice errs by as much as a plan says, and about as a rule") {
+  for (const double cells : {3., 4.}) {
+    const double error = std::abs(error_percent("appendix_c:0.6:11", cells, {}));
+    CHECK(error < 100 * largest_permeability_error(cells));
+    CHECK(error > 50 * expected_permeability_error(cells));
+  }
+}
+
 TEST_CASE("The expected error of a permeability falls with resolution down to the references' own") {
   for (double d = 1; d < 60; d *= 1.2) {
     CHECK(expected_permeability_error(1.2 * d) <= expected_permeability_error(d));

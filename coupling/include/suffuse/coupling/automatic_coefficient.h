@@ -36,9 +36,8 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
 /// Error of a packing's permeability (a share: 0.03 is 3 %) to be expected with `force`, the automatic
 /// coefficient and so many cells a Sauter diameter: root mean square, and the largest, of what packings show,
-/// fitted and not, 16 to 64 spheres in a periodic box (docs/decisions/solid-operator.md). Measured at 5
-/// and 8 cells, a power of the resolution between; extrapolated, hence a guess, below 5; beyond 8 as at 8,
-/// where the references are hardly better.
+/// fitted and not, 16 to 64 spheres in a periodic box. Measured at 2, 3, 4, 5 and 8 cells, powers of the
+/// resolution between; beyond 8 as at 8, where the references are hardly better; a guess below 2.
 double expected_permeability_error(double cells_per_sauter_diameter);
 double largest_permeability_error(double cells_per_sauter_diameter);
 
