@@ -13,6 +13,7 @@
 #include "commands/fluidisation_command.h"
 #include "commands/read_options.h"
 #include "commands/verdict_report.h"
+#include "suffuse/analysis/flow_record.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/coordination.h"
@@ -24,6 +25,9 @@ namespace files = std::filesystem;
 using micromechanics::Grading;
 
 constexpr const char* kWho = "verdict";
+
+/// Beyond this share of pores grains do not rest on each other: loose frictional packings have 0.45.
+constexpr double kLoosestGrains = 0.6;
 
 struct Options {
   std::string grading, name, output, html, figures, flow;
@@ -126,6 +130,27 @@ std::optional<Snapshot> last_snapshot(Options& options) {
   return snapshot;
 }
 
+/// As given; else of the bed at rest where a run is given, whose box holds more than the bed; else of the
+/// sample.
+void find_porosity(const Options& options, const std::optional<Snapshot>& snapshot, VerdictInput& input) {
+  input.porosity = options.porosity;
+  input.porosity_from = "as given";
+  if (input.porosity) return;
+  if (!options.flow.empty()) {
+    input.porosity = flow_record(NumberTable(options.flow, kWho), kWho, std::nullopt).porosity;
+    input.porosity_from = "of the bed at rest in " + names_of({options.flow});
+  } else if (snapshot) {
+    double solids = 0;
+    for (const micromechanics::Grain& grain : snapshot->packing.grains)
+      solids += micromechanics::sphere_volume(grain.radius);
+    input.porosity = 1 - solids / snapshot->packing.volume;
+    input.porosity_from = "of the sample's grains in its volume";
+    if (*input.porosity > kLoosestGrains)
+      input.porosity_from +=
+          ", more than grains at rest leave open: give `--volume` or `--porosity` if water stands above them";
+  }
+}
+
 VerdictInput input_of(const Options& options, const std::optional<Snapshot>& snapshot) {
   VerdictInput input{options.name,
                      "",
@@ -135,7 +160,8 @@ VerdictInput input_of(const Options& options, const std::optional<Snapshot>& sna
                      {},
                      options.constriction,
                      options.relative_density,
-                     options.porosity,
+                     {},
+                     {},
                      options.hydraulic,
                      options.alpha,
                      options.flow};
@@ -143,12 +169,7 @@ VerdictInput input_of(const Options& options, const std::optional<Snapshot>& sna
   const std::string& file = options.grading.empty() ? options.read.files.front() : options.grading;
   if (input.name.empty()) input.name = files::path(file).stem().string();
   input.grading_from = options.grading.empty() ? "the grains of the sample" : names_of({options.grading});
-  if (snapshot && !input.porosity) {
-    double solids = 0;
-    for (const micromechanics::Grain& grain : snapshot->packing.grains)
-      solids += micromechanics::sphere_volume(grain.radius);
-    input.porosity = 1 - solids / snapshot->packing.volume;
-  }
+  find_porosity(options, snapshot, input);
   if (input.porosity) {
     HydraulicInput checked = input.hydraulic;
     checked.porosity = *input.porosity;

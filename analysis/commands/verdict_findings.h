@@ -24,6 +24,7 @@ struct VerdictInput {
   micromechanics::ConstrictionOptions constriction;
   std::optional<double> relative_density;
   std::optional<double> porosity;
+  std::string porosity_from;  ///< in words
   HydraulicInput hydraulic;
   std::optional<double> alpha;  ///< given by the user, for the gradients
   std::string flow;             ///< record of an upward-flow run; empty: none

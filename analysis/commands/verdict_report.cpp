@@ -69,7 +69,7 @@ void add_basis(ReportDocument& report, const VerdictInput& input, const VerdictF
       input.relative_density
           ? fmt::format("Relative density: {:g}.", *input.relative_density)
           : "Relative density: not given; constrictions are those of the loosest state, the largest.");
-  items.push_back(input.porosity ? fmt::format("Porosity: {:.4g}.", *input.porosity)
+  items.push_back(input.porosity ? fmt::format("Porosity: {:.4g}, {}.", *input.porosity, input.porosity_from)
                                  : "Porosity: not given; no gradients, no conductivity.");
   report.list(std::move(items));
 }

@@ -210,6 +210,8 @@ def check_flow(program, gradings, figures, python):
     # Known of the series to round-off; four digits are printed.
     check(found["critical gradient, Terzaghi"] == f"{bed.BED_CRITICAL:.4g}" and found["conductivity, measured"] == f"{bed.BED_CONDUCTIVITY:.4g}", f"{found}")
     check("Upward flow" not in program.must_run(gradings / "appendix_C.csv"), "no flow where there is none")
+    check(f"Porosity: {float(found['porosity at rest']):.4g}, of the bed at rest in `ramp.csv`" in report, "the porosity of the run's bed")
+    check("Porosity: 0.31, as given" in program.must_run(*words, "--porosity", "0.31"), "but a given one first")
     if python:
         program.must_run(*words, "--output", "flow.md", "--figures", "flowing")
         markdown = (program.folder / "flow.md").read_text(encoding="utf-8")
