@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include "suffuse/common/error.h"
+#include "suffuse/lbm/cell_array.h"
 
 namespace suffuse::coupling {
 
@@ -12,17 +13,6 @@ namespace {
 constexpr const char* kSettings = "/settings";
 constexpr const char* kReferences = "/monitor_references";
 constexpr const char* kPoreCoefficients = "/pore_coefficients";
-
-/// This rank's cells in an array (z, y, x).
-ArrayPart cells_of(const lbm::Decomposition& d) {
-  ArrayPart part;
-  for (const std::size_t a : {2, 1, 0}) {
-    part.whole.push_back(static_cast<std::size_t>(d.cells()[a]));
-    part.offset.push_back(static_cast<std::size_t>(d.local_box().lo[a]));
-    part.count.push_back(static_cast<std::size_t>(d.local_box().extent(static_cast<int>(a))));
-  }
-  return part;
-}
 
 /// One setting as text: ten digits tell two scripts apart, not two ways to round.
 struct Setting {
@@ -113,7 +103,7 @@ bool require_same_settings(const std::string& path, const CoupledSimulation& sim
 void save_pore_coefficients(Hdf5File& file, const CoupledSimulation& simulation) {
   const std::vector<float> values = simulation.pore_coefficients();
   if (values.empty()) return;
-  const ArrayPart cells = cells_of(simulation.fluid().decomposition());
+  const ArrayPart cells = lbm::cells_of(simulation.fluid().decomposition());
   file.create_array<float>(kPoreCoefficients, cells.whole);
   file.write(kPoreCoefficients, cells, values);
 }
@@ -122,7 +112,7 @@ void load_pore_coefficients(const std::string& path, CoupledSimulation& simulati
   const lbm::Decomposition& d = simulation.fluid().decomposition();
   const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
   if (!simulation.settings().solids.automatic_coefficient || !file.exists(kPoreCoefficients)) return;
-  simulation.set_pore_coefficients(file.read<float>(kPoreCoefficients, cells_of(d)));
+  simulation.set_pore_coefficients(file.read<float>(kPoreCoefficients, lbm::cells_of(d)));
 }
 
 void save_references(Hdf5File& file, const MonitorReferences& references, MPI_Comm communicator) {

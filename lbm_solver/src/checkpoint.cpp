@@ -7,6 +7,7 @@
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/lbm/cell_array.h"
 #include "suffuse/lbm/lattice.h"
 
 namespace suffuse::lbm {
@@ -17,15 +18,7 @@ std::size_t size(int n) {
   return static_cast<std::size_t>(n);
 }
 
-/// This rank's cells in an array (z, y, x).
-ArrayPart cells_of(const Decomposition& d) {
-  const CellBox& box = d.local_box();
-  return {{size(d.cells()[2]), size(d.cells()[1]), size(d.cells()[0])},
-          {size(box.lo[2]), size(box.lo[1]), size(box.lo[0])},
-          {size(box.extent(2)), size(box.extent(1)), size(box.extent(0))}};
-}
-
-/// The same in an array (direction, z, y, x).
+/// This rank's cells in an array (direction, z, y, x).
 ArrayPart with_direction(const ArrayPart& cells, int direction) {
   ArrayPart part = cells;
   part.whole.insert(part.whole.begin(), kDirections);

@@ -6,6 +6,7 @@
 
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/lbm/cell_array.h"
 
 namespace suffuse::lbm {
 
@@ -16,10 +17,6 @@ struct Snapshot {
   double time_si = 0;
   std::vector<std::string> fields;
 };
-
-std::size_t size(int n) {
-  return static_cast<std::size_t>(n);
-}
 
 std::string name_of(Field field) {
   switch (field) {
@@ -36,10 +33,7 @@ std::string name_of(Field field) {
 }
 
 ArrayPart part_of(const Decomposition& d, bool vector) {
-  const CellBox& box = d.local_box();
-  ArrayPart part{{size(d.cells()[2]), size(d.cells()[1]), size(d.cells()[0])},
-                 {size(box.lo[2]), size(box.lo[1]), size(box.lo[0])},
-                 {size(box.extent(2)), size(box.extent(1)), size(box.extent(0))}};
+  ArrayPart part = cells_of(d);
   if (vector) {
     part.whole.push_back(3);
     part.offset.push_back(0);

@@ -17,8 +17,8 @@ struct ArrayPart {
 };
 
 /// An HDF5 file that all ranks of a communicator write and read together. Every call is collective. No HDF5
-/// type is visible here. Failures of the file system are thrown as std::runtime_error with the path, the same
-/// on every rank.
+/// type is visible here. A file that cannot be opened is a UserError, other failures of the file system are
+/// thrown as std::runtime_error with the path, the same on every rank.
 class Hdf5File {
  public:
   enum class Mode { create, append, read };  ///< `append` creates the file if there is none
