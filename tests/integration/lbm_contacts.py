@@ -20,21 +20,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.join(HERE, "analysis"), os.path.join(HERE, "micromechanics"), os.path.join(HERE, "..", "support")]
 from analyse_runs import rows  # noqa: E402
 from computed_columns import COLUMNS, COMPUTES, difference  # noqa: E402
-from contact_scene import HEADER, MATERIAL, SPLIT, Suffuse, check  # noqa: E402
+from contact_scene import FILL, HEADER, MATERIAL, SPLIT, Suffuse, check  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 # 354 grains in 31 x 31 x 31 cells at a porosity of 0.31, with some 700 contacts at 11 kPa, sheared on the way.
-PREPARE = HEADER + """
-region sample block 0 5.1e-3 0 5.1e-3 0 5.1e-3 units box
-create_box 1 sample
-""" + MATERIAL + """
-fix large all particletemplate/sphere 11593 atom_type 1 density constant 2650 radius constant 0.5e-3
-fix small all particletemplate/sphere 11807 atom_type 1 density constant 2650 radius constant 0.2e-3
-fix grading all particledistribution/discrete 32452843 2 large 0.75 small 0.25
-fix insertion all insert/pack seed 32452867 distributiontemplate grading insert_every once overlapcheck yes &
-    volumefraction_region 0.3 region sample ntry_mc 20000
-run 1
-unfix insertion
+PREPARE = FILL.format(edge=5.1e-3) + """
 fix shape all deform 1 x final 0 3.84e-3 y final 0 3.84e-3 z final 0 3.95e-3 remap x
 run 12000
 unfix shape

@@ -9,17 +9,12 @@ import csv
 import json
 import math
 import pathlib
-import subprocess
-import sys
 import tempfile
+
+from program_under_test import Program, check, python_with_figures
 
 RADIUS = 0.5e-3
 SIDE = 3
-
-
-def check(condition, message):
-    if not condition:
-        sys.exit("FAILED: " + message)
 
 
 def packing(step, force=0.25):
@@ -38,29 +33,6 @@ def packing(step, force=0.25):
             contacts.append(" ".join(f"{v:g}" for v in place(cell) + place(other) + [number[cell], number[other], 1] + push))
     return (head.format("ATOMS", len(grains)) + "ITEM: ATOMS id x y z radius\n" + "\n".join(grains) + "\n",
             head.format("ENTRIES", len(contacts)) + "ITEM: ENTRIES " + " ".join(f"c_1[{k}]" for k in range(1, 13)) + "\n" + "\n".join(contacts) + "\n")
-
-
-class Program:
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
-
-    def run(self, *words):
-        done = subprocess.run([self.path, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
-        return done.returncode, done.stdout.decode(), done.stderr.decode()
-
-    def must_run(self, *words):
-        code, out, err = self.run(*words)
-        check(code == 0, f"{words} ended with {code}: {err}")
-        return out
-
-    def must_refuse(self, words, *told):
-        before = set(self.folder.rglob("*"))
-        code, out, err = self.run(*words)
-        lines = err.strip().splitlines()
-        check(code == 1 and len(lines) == 1, f"{words}: exit code {code}, {len(lines)} lines:\n{err}")
-        check(lines[0].startswith("suffuse-analyse: error: "), lines[0])
-        check(all(word in lines[0] for word in told), f"{words} says only: {lines[0]}")
-        check(set(self.folder.rglob("*")) == before, f"{words} leaves {set(self.folder.rglob('*')) - before}")
 
 
 def check_results(program):
@@ -160,8 +132,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--analyse", required=True)
     path = parser.parse_args().analyse
-    has_figures = any(subprocess.run([python, "-c", "import matplotlib"], stderr=subprocess.DEVNULL, check=False).returncode == 0
-                      for python in ("python3", "/usr/bin/python3") if python == "python3" or pathlib.Path(python).exists())
+    has_figures = python_with_figures() is not None
     with tempfile.TemporaryDirectory(prefix="suffuse-test-") as folder:
         program = Program(path, pathlib.Path(folder))
         for words in (["--help"], ["contacts", "--help"], ["rose", "--help"], ["reproduce", "table-4-1", "--help"]):

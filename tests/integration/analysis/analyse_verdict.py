@@ -7,7 +7,6 @@ hand, the HTML page (well-formed, self-contained), figures that their printed co
 import argparse
 import base64
 import html.parser
-import os
 import pathlib
 import re
 import shlex
@@ -17,56 +16,19 @@ import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
 import fluidisation_series as bed  # noqa: E402
+from program_under_test import Program, check, python_with_figures  # noqa: E402
 
 COARSE, FINE = 0.5e-3, 0.05e-3  # radii, m
 SIDE = 3
 VOID_ELEMENTS = {"meta", "img"}
 
 
-def check(condition, message):
-    if not condition:
-        sys.exit("FAILED: " + message)
-
-
-def python_with_figures():
-    """As the program itself looks for one."""
-    for python in ("python3", "/usr/bin/python3"):
-        try:
-            if subprocess.run([python, "-c", "import matplotlib"], capture_output=True).returncode == 0:
-                return python
-        except OSError:
-            pass
-    return None
-
-
-class Program:
-    """Runs in a folder, with a folder for temporary files that must be empty afterwards."""
-
-    def __init__(self, path, folder):
-        self.path, self.folder = path, folder
-        self.temporary = folder / "temporary"
-        self.temporary.mkdir()
-
-    def run(self, *words):
-        environment = {**os.environ, "TMPDIR": str(self.temporary)}
-        done = subprocess.run([self.path, "verdict", *map(str, words)], cwd=self.folder, capture_output=True, timeout=120, env=environment)
-        check(not list(self.temporary.iterdir()), f"{words}: temporary files are left")
-        return done.returncode, done.stdout.decode(), done.stderr.decode()
-
-    def must_run(self, *words):
-        code, out, err = self.run(*words)
-        check(code == 0, f"{words} ended with {code}: {err}")
-        return out
+class Verdict(Program):
+    """`suffuse-analyse verdict`; it says nothing before it refuses."""
 
     def must_refuse(self, words, *told):
-        before = set(self.folder.rglob("*"))
-        code, out, err = self.run(*words)
-        lines = err.strip().splitlines()
-        check(code == 1 and len(lines) == 1, f"{words}: exit code {code}, {len(lines)} lines:\n{err}")
-        check(all(text in err for text in told), f"{words}: does not tell {told}: {err}")
+        out = super().must_refuse(words, *told)
         check(out == "", f"{words}: prints {out!r}")
-        left = set(self.folder.rglob("*")) - before
-        check(not left, f"{words}: leaves {left}")
 
 
 def must_say(report, *texts):
@@ -279,7 +241,7 @@ def main():
     parser.add_argument("--documents", required=True, type=pathlib.Path)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        program = Program(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder))
+        program = Verdict(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder), "verdict")
         gradings = options.gradings.resolve()
         check_words(program, gradings)
         check_sample(program, gradings)

@@ -32,9 +32,9 @@ fix motion all nve/sphere
 timestep 2e-6
 """
 
-# Compressed to 100 kPa and sheared by 1 %: sliding contacts, a deviator, grains without contact.
-PREPARE = HEADER + """
-region sample block 0 5e-3 0 5e-3 0 5e-3 units box
+# A cube of so many metres with grains of both sizes, not touching each other.
+FILL = HEADER + """
+region sample block 0 {edge} 0 {edge} 0 {edge} units box
 create_box 1 sample
 """ + MATERIAL + """
 fix large all particletemplate/sphere 11593 atom_type 1 density constant 2650 radius constant 0.5e-3
@@ -44,6 +44,10 @@ fix insertion all insert/pack seed 32452867 distributiontemplate grading insert_
     volumefraction_region 0.3 region sample ntry_mc 20000
 run 1
 unfix insertion
+"""
+
+# Compressed to 100 kPa and sheared by 1 %: sliding contacts, a deviator, grains without contact.
+PREPARE = FILL.format(edge=5e-3) + """
 fix s all stress/servo isotropic 100e3 inertial_number 2e-3 max_rate 50 until target
 run 40000
 unfix s
