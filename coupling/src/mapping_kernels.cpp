@@ -56,11 +56,9 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
     const Floats turning_y = uy + wz * dx, turning_z = uz - wy * dx;
     const auto in_row = kLaneNumbers < static_cast<float>(arrays.cells_x - x);
     const std::ptrdiff_t first = x + arrays.plane_pitch * list.z;
-    for (int y = rows.begin; y < rows.end; ++y, entries += kLanes) {
-      const float dy = static_cast<float>(y + lo_y);
-      Floats fraction = covered<kMethod>(sphere, dx, dy, dz);
-      fraction = (fraction + kFractionRounding) - kFractionRounding;
-      fraction = in_row ? fraction : Floats{};
+    const auto write = [&](int y, float dy, const Floats& covered_part) {
+      const Floats rounded = (covered_part + kFractionRounding) - kFractionRounding;
+      const Floats fraction = in_row ? rounded : Floats{};
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       Floats strength = fraction;
       if constexpr (kOwn) {
@@ -69,13 +67,29 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
         strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
       }
       store(entries, strength);
-      if constexpr (kTarget == Target::entries_only) continue;
+      entries += kLanes;
+      if constexpr (kTarget == Target::entries_only) return;
       store(arrays.fraction + cell, load(arrays.fraction + cell) + fraction);
       if constexpr (kOwn) store(arrays.strength + cell, load(arrays.strength + cell) + strength);
       float* const* momentum = arrays.momentum;
       store(momentum[0] + cell, load(momentum[0] + cell) + strength * (ux - wz * dy));
       store(momentum[1] + cell, load(momentum[1] + cell) + strength * turning_y);
       store(momentum[2] + cell, load(momentum[2] + cell) + strength * (turning_z + wx * dy));
+    };
+    int y = rows.begin;
+    if constexpr (kMethod == FractionMethod::exact) {  // a long chain of operations: two rows at a time
+      for (; y < rows.end; y += 2) {
+        const float dy[2] = {static_cast<float>(y + lo_y), static_cast<float>(y + 1 + lo_y)};
+        const TwoRows parts =
+            covered<kMethod>(sphere, two_rows(dx, dx), two_rows(Floats{} + dy[0], Floats{} + dy[1]), dz);
+        write(y, dy[0], row_of(parts, 0));
+        if (y + 1 < rows.end) write(y + 1, dy[1], row_of(parts, 1));
+      }
+      continue;
+    }
+    for (; y < rows.end; ++y) {
+      const float dy = static_cast<float>(y + lo_y);
+      write(y, dy, covered<kMethod>(sphere, dx, Floats{} + dy, dz));
     }
   }
   return entries;
@@ -147,10 +161,10 @@ typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_ali
 /// The sums of four vectors' lanes.
 [[gnu::always_inline]] inline Four sums_of(const Doubles& a, const Doubles& b, const Doubles& c,
                                            const Doubles& d) {
-  const Doubles ab =
-      __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) + __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Doubles cd =
-      __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14) + __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Doubles ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
+                     __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Doubles cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14) +
+                     __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
   const Doubles all = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13) +
                       __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
   return __builtin_shufflevector(all, all, 0, 1, 2, 3) + __builtin_shufflevector(all, all, 4, 5, 6, 7);
@@ -162,8 +176,8 @@ struct Moments {
 };
 
 /// The same for one pack of columns, row by row. The rows' moments come from sums of sums: with h_j in row j
-/// of n at dy_j, the sum of dy_j h_j is dy_n (h_0 + ... + h_{n-1}) less the sum over all rows of what had been
-/// added up by then. So each row costs additions only, and the columns' moments wait until the end.
+/// of n at dy_j, the sum of dy_j h_j is dy_n (h_0 + ... + h_{n-1}) less the sum over all rows of what had
+/// been added up by then. So each row costs additions only, and the columns' moments wait until the end.
 struct ColumnSums {
   Doubles x{}, y{}, z{}, past_x{}, past_z{};
 

@@ -324,7 +324,8 @@ double SolidMapping::overlap() const {
 
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
-         loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) + rows_.capacity() * sizeof(SliceRows) +
+         loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
+         rows_.capacity() * sizeof(SliceRows) +
          (slices_.capacity() + first_slice_.capacity() + order_.capacity()) * sizeof(int);
 }
 

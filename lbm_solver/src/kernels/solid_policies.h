@@ -80,9 +80,9 @@ struct PartialForce {
   static constexpr bool kAddsForce = true;
   static constexpr bool kMixes = false;
 
-  /// The cell exchanges 2 B (m - rho us), m the momentum with half of the other forces; a unit of its strength
-  /// S, 2/D (m - rho us) with D = S/B. One division gives 1/D and 1/S, which turns strength times velocity into
-  /// us.
+  /// The cell exchanges 2 B (m - rho us), m the momentum with half of the other forces; a unit of its
+  /// strength S, 2/D (m - rho us) with D = S/B. One division gives 1/D and 1/S, which turns strength times
+  /// velocity into us.
   template <class T>
   [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
                                            CellPack<T>& cell) {
