@@ -147,13 +147,25 @@ void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& a
   return covered * (held.base + away / greater(strength, Floats{} + 1e-12f));
 }
 
+/// A row's exchange and its sums over a slice's few rows keep the fluid's storage type.
 template <class T>
-[[gnu::always_inline]] inline Doubles load_exchange(const T* from) {
-  if constexpr (sizeof(T) == sizeof(float))
-    return widened(load(from));
-  else
+struct Row;
+template <>
+struct Row<double> {
+  typedef Doubles Values;
+  [[gnu::always_inline]] static Values load_from(const double* from) {
     return *reinterpret_cast<const UnalignedDoubles*>(from);
-}
+  }
+  [[gnu::always_inline]] static Values of(const Floats& v) { return widened(v); }
+  [[gnu::always_inline]] static Doubles sum(const Values& v) { return v; }
+};
+template <>
+struct Row<float> {
+  typedef Floats Values;
+  [[gnu::always_inline]] static Values load_from(const float* from) { return load(from); }
+  [[gnu::always_inline]] static Values of(const Floats& v) { return v; }
+  [[gnu::always_inline]] static Doubles sum(const Values& v) { return widened(v); }
+};
 
 typedef double Four __attribute__((vector_size(32)));
 typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
@@ -178,10 +190,12 @@ struct Moments {
 /// The same for one pack of columns, row by row. The rows' moments come from sums of sums: with h_j in row j
 /// of n at dy_j, the sum of dy_j h_j is dy_n (h_0 + ... + h_{n-1}) less the sum over all rows of what had
 /// been added up by then. So each row costs additions only, and the columns' moments wait until the end.
+template <class T>
 struct ColumnSums {
-  Doubles x{}, y{}, z{}, past_x{}, past_z{};
+  using Values = typename Row<T>::Values;
+  Values x{}, y{}, z{}, past_x{}, past_z{};
 
-  [[gnu::always_inline]] void add(const Doubles& weight, const Doubles (&h)[3]) {
+  [[gnu::always_inline]] void add(const Values& weight, const Values (&h)[3]) {
     x += weight * h[0];
     y += weight * h[1];
     z += weight * h[2];
@@ -190,12 +204,13 @@ struct ColumnSums {
   }
   /// dy: of the row after the last.
   [[gnu::always_inline]] void add_to(Moments& moments, const Doubles& dx, double dy, double dz) const {
-    moments.force[0] += x;
-    moments.force[1] += y;
-    moments.force[2] += z;
-    moments.torque[0] += (dy * z - past_z) - dz * y;
-    moments.torque[1] += dz * x - dx * z;
-    moments.torque[2] += dx * y - (dy * x - past_x);
+    const Doubles fx = Row<T>::sum(x), fy = Row<T>::sum(y), fz = Row<T>::sum(z);
+    moments.force[0] += fx;
+    moments.force[1] += fy;
+    moments.force[2] += fz;
+    moments.torque[0] += (dy * fz - Row<T>::sum(past_z)) - dz * fy;
+    moments.torque[1] += dz * fx - dx * fz;
+    moments.torque[2] += dx * fy - (dy * fx - Row<T>::sum(past_x));
   }
 };
 
@@ -213,15 +228,16 @@ template <class T>
   for (int pack = 0; pack < m.packs; ++pack) {
     const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
     const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
-    ColumnSums taken, ahead;
+    ColumnSums<T> taken, ahead;
     for (int y = rows.begin; y < rows.end; ++y, entries += kLanes) {
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       const Floats own = load(entries);
       const Floats factor = held_factor(held, load(arrays.fraction + cell), load(arrays.strength + cell));
-      const Doubles h[3] = {load_exchange(exchange[0] + cell), load_exchange(exchange[1] + cell),
-                            load_exchange(exchange[2] + cell)};
-      taken.add(widened(own), h);
-      ahead.add(widened(factor * own), h);
+      const typename Row<T>::Values h[3] = {Row<T>::load_from(exchange[0] + cell),
+                                            Row<T>::load_from(exchange[1] + cell),
+                                            Row<T>::load_from(exchange[2] + cell)};
+      taken.add(Row<T>::of(own), h);
+      ahead.add(Row<T>::of(factor * own), h);
     }
     taken.add_to(all, dx, end_y, dz);
     ahead.add_to(lead, dx, end_y, dz);
