@@ -3,8 +3,8 @@
 
   accuracy_and_time.py study.csv --variables resolution,operator --output FIGURE.png
 
-The first variable gives a point its colour, the second its shape; points of the front have the values of all of them written beside
-them. Crosses at the upper edge are runs that failed. The ending of --output says the format (png, pdf, svg).
+The first variable gives a point its colour, the second its shape; points of the front have the values that change along it
+written beside them. Crosses at the upper edge are runs that failed. The ending of --output says the format (png, pdf, svg).
 """
 import argparse
 import csv
@@ -47,10 +47,13 @@ def colours(style, values):
 
 
 def label_front(axes, front, options):
-    for k, row in enumerate(front):
-        text = ", ".join(row[name] for name in options.variables)
-        axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5, 4), textcoords="offset points", fontsize=6.5, ha="left", va="bottom",
-                      annotation_clip=False)
+    """Beside each point of the front the values that change along it."""
+    import matplotlib.patheffects as effects
+
+    changing = [name for name in options.variables if len({row[name] for row in front}) > 1] or options.variables[:1]
+    for row in front:
+        axes.annotate(", ".join(row[name] for name in changing), xy=(row["x"], row["y"]), xytext=(5, 4), textcoords="offset points", fontsize=6.5,
+                      ha="left", va="bottom", annotation_clip=False, zorder=3, path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
 
 
 def draw(rows, options):

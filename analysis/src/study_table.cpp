@@ -8,7 +8,6 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/record_table.h"
-#include "suffuse/common/progress.h"
 #include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
@@ -160,8 +159,8 @@ std::string StudyTable::text() const {
 std::string StudyTable::sentence() const {
   const std::vector<TradeOff> runs = trade_offs();
   const auto told = [&](std::size_t i) {
-    return fmt::format("{}, {} (error {:.2g} %)", variables_text(rows_[i].run.swept),
-                       duration_text(seconds(rows_[i])), 100 * *rows_[i].error);
+    return fmt::format("{}, {:.3g} s (error {:.2g} %)", variables_text(rows_[i].run.swept), seconds(rows_[i]),
+                       100 * *rows_[i].error);
   };
   if (const auto best = fastest_within(runs, study_.within))
     return fmt::format("fastest within {:g} %: {}", 100 * study_.within, told(*best));
