@@ -3,8 +3,9 @@
 
   accuracy_and_time.py study.csv --variables resolution,operator --output FIGURE.png
 
-The first variable gives a point its colour, the second its shape; points of the front have the values that change along it
-written beside them. Crosses at the upper edge are runs that failed. The ending of --output says the format (png, pdf, svg).
+The first variable gives a point its colour, the second its shape, the third its filling; points of the front have the values that change
+along it written beside them. Where each run differs from a base in one variable, the colour is that variable and every point has its
+value. Crosses at the upper edge are runs that failed. The ending of --output says the format (png, pdf, svg).
 """
 import argparse
 import csv
@@ -12,6 +13,7 @@ import pathlib
 import sys
 
 MARKERS = "osD^vP<>*h"
+FILLS = ("full", "none", "left", "bottom", "right", "top")
 
 
 def number(text):
@@ -39,21 +41,56 @@ def classes(rows, variable):
     return sorted(values, key=number) if all(number(value) is not None for value in values) else values
 
 
-def colours(style, values):
-    if len(values) <= len(style.COLOURS):
-        return dict(zip(values, style.COLOURS.values()))
-    shades = style.matplotlib.colormaps["viridis"] if hasattr(style.matplotlib, "colormaps") else style.plt.get_cmap("viridis")
-    return {value: shades(0.95 * k / (len(values) - 1)) for k, value in enumerate(values)}
+class Looks:
+    """How a run looks by its first three variables: colour, shape, filling."""
+
+    def __init__(self, style, rows, variables):
+        self.variables = variables[:3]
+        values = [classes(rows, name) for name in self.variables] + [[""]] * (3 - len(self.variables))
+        palette = list(style.COLOURS.values())
+        if len(values[0]) > len(palette):
+            palette = [style.plt.get_cmap("viridis")(0.95 * k / (len(values[0]) - 1)) for k in range(len(values[0]))]
+        self.maps = [dict(zip(values[0], palette)), {value: MARKERS[k % len(MARKERS)] for k, value in enumerate(values[1])},
+                     {value: FILLS[k % len(FILLS)] for k, value in enumerate(values[2])}]
+
+    def of(self, row):
+        keys = [row[name] for name in self.variables] + [""] * (3 - len(self.variables))
+        colour, marker, fill = (known[key] for known, key in zip(self.maps, keys))
+        return {"linestyle": "", "color": colour, "marker": marker, "fillstyle": fill, "markersize": 5, "markeredgewidth": 0.9}
+
+    def legend(self):
+        from matplotlib.lines import Line2D
+
+        entries = []
+        for name, known, key in zip(self.variables, self.maps, ("color", "marker", "fillstyle")):
+            entries.append(Line2D([], [], linestyle="", label=name.replace("_", " ")))
+            entries += [Line2D([], [], **({"linestyle": "", "marker": "o", "color": "#606060", "label": f"  {value}"} | {key: look})) for value, look in known.items()]
+        return entries
 
 
-def label_front(axes, front, options):
-    """Beside each point of the front the values that change along it."""
+def label(axes, row, text):
     import matplotlib.patheffects as effects
 
-    changing = [name for name in options.variables if len({row[name] for row in front}) > 1] or options.variables[:1]
+    axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5, 4), textcoords="offset points", fontsize=6.5, ha="left", va="bottom",
+                  annotation_clip=False, zorder=1.5, path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
+
+
+def label_front(axes, front, variables):
+    """Beside each point of the front the values that change along it."""
+    changing = [name for name in variables if len({row[name] for row in front}) > 1] or variables[:1]
     for row in front:
-        axes.annotate(", ".join(row[name] for name in changing), xy=(row["x"], row["y"]), xytext=(5, 4), textcoords="offset points", fontsize=6.5,
-                      ha="left", va="bottom", annotation_clip=False, zorder=3, path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
+        label(axes, row, ", ".join(row[name] for name in changing))
+
+
+def one_at_a_time(rows, variables):
+    """Whether each run but the finest differs from one base in one variable at most; if so, rows get the column `changed`."""
+    runs = [row for row in rows if row["is_reference"] != "1"]
+    base = {name: max((row[name] for row in runs), key=[row[name] for row in runs].count) for name in variables}
+    for row in rows:
+        changes = [name for name in variables if row[name] != base[name]]
+        row["changed"], row["changes"] = changes[0] if changes else "base", len(changes)
+        row["label"] = row[changes[0]] if changes else "base"
+    return len(variables) > 2 and all(row["changes"] <= 1 for row in runs)
 
 
 def draw(rows, options):
@@ -71,21 +108,24 @@ def draw(rows, options):
         row["y"] = 100 * max(float(row["error"]), least / 2)
 
     figure, axes = style.plt.subplots(figsize=(style.width_of(options) + 1.3, 3.8))
-    by_colour = options.variables[0]
-    by_marker = options.variables[1] if len(options.variables) > 1 else None
-    colour_of = colours(style, classes(rows, by_colour))
-    marker_of = {value: MARKERS[k % len(MARKERS)] for k, value in enumerate(classes(rows, by_marker))} if by_marker else {}
+    singly = one_at_a_time(rows, options.variables)
+    looks = Looks(style, runs + failed, ["changed"] if singly else options.variables)
     front = sorted((row for row in runs if row["front"] == "1"), key=lambda row: row["x"])
     axes.step([row["x"] for row in front], [row["y"] for row in front], where="post", color="#606060", linewidth=1.0, zorder=1)
     for row in runs:
-        axes.plot(row["x"], row["y"], linestyle="", marker=marker_of.get(row[by_marker], "o") if by_marker else "o", markersize=5,
-                  color=colour_of[row[by_colour]], markeredgecolor="black" if row["front"] == "1" else "none", markeredgewidth=0.8, zorder=2)
+        axes.plot(row["x"], row["y"], zorder=2, **looks.of(row))
+        if row["front"] == "1":
+            axes.plot(row["x"], row["y"], linestyle="", marker="o", markersize=9, fillstyle="none", color="black", markeredgewidth=0.7, zorder=2)
     axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=options.title or pathlib.Path(options.study).parent.name)
     low, high = axes.get_xlim()
     axes.set_xlim(low, high * (high / low) ** 0.12)  # room for the labels
     for row in failed:
-        axes.plot(row["x"], 1, linestyle="", marker="x", color=colour_of[row[by_colour]], transform=axes.get_xaxis_transform(), clip_on=False)
-    label_front(axes, front, options)
+        axes.plot(row["x"], 1, transform=axes.get_xaxis_transform(), clip_on=False, **(looks.of(row) | {"marker": "x", "fillstyle": "full"}))
+    if singly:
+        for row in runs:
+            label(axes, row, row["label"])
+    else:
+        label_front(axes, front, options.variables)
     if options.within:
         axes.axhline(100 * options.within, **style.REFERENCE)
         axes.annotate(f"{100 * options.within:g} %", xy=(0, 100 * options.within), xycoords=("axes fraction", "data"), xytext=(2, 2),
@@ -93,13 +133,7 @@ def draw(rows, options):
     style.plain_log_ticks(axes.xaxis)
     style.plain_log_ticks(axes.yaxis)
 
-    def title_entry(text):
-        return Line2D([], [], linestyle="", label=text.replace("_", " "))
-
-    entries = [title_entry(by_colour)] + [Line2D([], [], linestyle="", marker="o", color=colour, label=f"  {value}") for value, colour in colour_of.items()]
-    if by_marker:
-        entries += [title_entry(by_marker)] + [Line2D([], [], linestyle="", marker=marker, color="#606060", label=f"  {value}") for value, marker in marker_of.items()]
-    entries.append(Line2D([], [], color="#606060", linewidth=1.0, label="best so far"))
+    entries = looks.legend() + [Line2D([], [], color="#606060", linewidth=1.0, marker="o", markersize=9, fillstyle="none", label="best so far")]
     if failed:
         entries.append(Line2D([], [], linestyle="", marker="x", color="#606060", label="failed"))
     axes.legend(handles=entries, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), handletextpad=0.2)

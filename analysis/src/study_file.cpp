@@ -82,7 +82,8 @@ std::string value_text(const toml::node& node, const Section& section, const std
   if (text == nullptr || text->get().empty()) section.complain(key, "neither", "be a number or a text");
   std::string value = text->get();
   const std::string folder = files::absolute(section.file()).parent_path().string();
-  for (std::size_t at; (at = value.find("{study}")) != value.npos;) value.replace(at, 7, folder);
+  for (std::size_t at = 0; (at = value.find("{study}", at)) != value.npos; at += folder.size())
+    value.replace(at, 7, folder);
   return value;
 }
 

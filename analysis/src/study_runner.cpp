@@ -95,7 +95,7 @@ class Runner {
     const ScriptVariables before(study_.preparation->script, study_.file);
     for (const auto& [name, value] : study_.preparation->variables)
       before.require(name, study_.file + ", [prepare]");
-    prepared_ = before.fingerprint();
+    prepared_ = before.fingerprint() + variables_text(study_.preparation->variables);
   }
 
   std::string folder_of(const StudyCase& run) const { return (out_ / "runs" / run.name).string(); }
@@ -105,8 +105,9 @@ class Runner {
     words.insert(words.end(), {"-in", script});
     for (const auto& [name, value] : variables) {
       std::string text = value;
-      for (std::size_t at; (at = text.find("{prepare}")) != text.npos;)
-        text.replace(at, 9, (out_ / "prepare").string());
+      const std::string folder = (out_ / "prepare").string();
+      for (std::size_t at = 0; (at = text.find("{prepare}", at)) != text.npos; at += folder.size())
+        text.replace(at, 9, folder);
       words.insert(words.end(), {"-var", name, text});
     }
     return words;
