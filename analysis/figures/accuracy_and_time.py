@@ -48,6 +48,8 @@ class Looks:
         self.variables = variables[:3]
         values = [classes(rows, name) for name in self.variables] + [[""]] * (3 - len(self.variables))
         palette = list(style.COLOURS.values())
+        if values[0][0] == "base":
+            palette = ["black"] + palette
         if len(values[0]) > len(palette):
             palette = [style.plt.get_cmap("viridis")(0.95 * k / (len(values[0]) - 1)) for k in range(len(values[0]))]
         self.maps = [dict(zip(values[0], palette)), {value: MARKERS[k % len(MARKERS)] for k, value in enumerate(values[1])},
@@ -68,11 +70,14 @@ class Looks:
         return entries
 
 
-def label(axes, row, text):
+def label(axes, row, text, corner=0):
+    """Beside a point: right above, right below, left above or left below."""
     import matplotlib.patheffects as effects
 
-    axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5, 4), textcoords="offset points", fontsize=6.5, ha="left", va="bottom",
-                  annotation_clip=False, zorder=1.5, path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
+    right, above = corner < 2, corner % 2 == 0
+    axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5 if right else -5, 4 if above else -4), textcoords="offset points", fontsize=6.5,
+                  ha="left" if right else "right", va="bottom" if above else "top", annotation_clip=False, zorder=1.5,
+                  path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
 
 
 def label_front(axes, front, variables):
@@ -96,6 +101,7 @@ def one_at_a_time(rows, variables):
 def draw(rows, options):
     import suffuse_style as style
     from matplotlib.lines import Line2D
+    from matplotlib.ticker import LogLocator
 
     for row in rows:
         row["x"] = float(row[f"{options.time}_s"])
@@ -109,7 +115,9 @@ def draw(rows, options):
 
     figure, axes = style.plt.subplots(figsize=(style.width_of(options) + 1.3, 3.8))
     singly = one_at_a_time(rows, options.variables)
-    looks = Looks(style, runs + failed, ["changed"] if singly else options.variables)
+    if singly:
+        runs.sort(key=lambda row: row["changed"] == "base")  # drawn last, as others hardly differ from it
+    looks = Looks(style, sorted(runs + failed, key=lambda row: row["changed"] != "base") if singly else rows, ["changed"] if singly else options.variables)
     front = sorted((row for row in runs if row["front"] == "1"), key=lambda row: row["x"])
     axes.step([row["x"] for row in front], [row["y"] for row in front], where="post", color="#606060", linewidth=1.0, zorder=1)
     for row in runs:
@@ -117,21 +125,25 @@ def draw(rows, options):
         if row["front"] == "1":
             axes.plot(row["x"], row["y"], linestyle="", marker="o", markersize=9, fillstyle="none", color="black", markeredgewidth=0.7, zorder=2)
     axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=options.title or pathlib.Path(options.study).parent.name)
-    low, high = axes.get_xlim()
-    axes.set_xlim(low, high * (high / low) ** 0.12)  # room for the labels
+    ends = [row["x"] for row in runs + failed]
+    low, high = min(ends), max(ends)
+    axes.set_xlim(low / (high / low) ** 0.05, high * (high / low) ** 0.12)  # room for the labels
     for row in failed:
         axes.plot(row["x"], 1, transform=axes.get_xaxis_transform(), clip_on=False, **(looks.of(row) | {"marker": "x", "fillstyle": "full"}))
     if singly:
-        for row in runs:
-            label(axes, row, row["label"])
+        for k, row in enumerate(sorted(runs, key=lambda row: row["x"])):  # neighbours to other sides
+            label(axes, row, row["label"], k % 4)
     else:
         label_front(axes, front, options.variables)
     if options.within:
         axes.axhline(100 * options.within, **style.REFERENCE)
         axes.annotate(f"{100 * options.within:g} %", xy=(0, 100 * options.within), xycoords=("axes fraction", "data"), xytext=(2, 2),
                       textcoords="offset points", fontsize=8, color=style.REFERENCE["color"])
-    style.plain_log_ticks(axes.xaxis)
-    style.plain_log_ticks(axes.yaxis)
+    for axis in (axes.xaxis, axes.yaxis):
+        style.plain_log_ticks(axis)
+        least, most = axis.get_view_interval()
+        if most < 10 * least:  # 1, 2 and 5 alone would be too few
+            axis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 4, 5, 7), numticks=12))
 
     entries = looks.legend() + [Line2D([], [], color="#606060", linewidth=1.0, marker="o", markersize=9, fillstyle="none", label="best so far")]
     if failed:

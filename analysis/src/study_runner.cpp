@@ -252,7 +252,7 @@ class Runner {
 
   void report() {
     if (table_.size() == 0) return;
-    fmt::print("\n{}\n{}\n{}\n\n{}\n", study_.title, table_.text(), table_.sentence(),
+    fmt::print("\n{}\n{}\n{}\n\n{}\n", study_.title, table_.text(), table_.verdict(),
                (out_ / "study.csv").string());
     std::fflush(stdout);
     bool has_error = false;

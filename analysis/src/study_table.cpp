@@ -73,22 +73,27 @@ void StudyTable::work_out_errors() {
       if (quantity.by_finest && reference != rows_.end()) target = reference->values[k];
       if (!row.values[k] || !target || *target == 0) continue;
       row.errors[k] = relative_error(*row.values[k], *target);
-      row.error = std::max({row.error.value_or(0), std::abs(*row.errors[k]), quantity.uncertainty});
+      row.error = std::max(row.error.value_or(0), *counted_error(row, k));
     }
   }
   const std::vector<bool> front = pareto_front(trade_offs());
   for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].on_front = front[i];
 }
 
-/// The finest run takes no part where it is the reference of something: its error there is none by
-/// definition.
-std::vector<TradeOff> StudyTable::trade_offs() const {
+/// The finest run takes no part: it has no error by definition.
+std::vector<TradeOff> StudyTable::trade_offs(std::optional<std::size_t> quantity) const {
   std::vector<TradeOff> runs;
-  for (const StudyRow& row : rows_)
-    runs.push_back({seconds(row), row.run.is_reference || row.record.status != RunRecord::Status::finished
-                                      ? std::nullopt
-                                      : row.error});
+  for (const StudyRow& row : rows_) {
+    TradeOff& run = runs.emplace_back(TradeOff{seconds(row), std::nullopt});
+    if (row.run.is_reference || row.record.status != RunRecord::Status::finished) continue;
+    run.error = quantity ? counted_error(row, *quantity) : row.error;
+  }
   return runs;
+}
+
+std::optional<double> StudyTable::counted_error(const StudyRow& row, std::size_t quantity) const {
+  if (!row.errors[quantity]) return std::nullopt;
+  return std::max(std::abs(*row.errors[quantity]), study_.quantities[quantity].uncertainty);
 }
 
 std::vector<std::size_t> StudyTable::by_time() const {
@@ -156,11 +161,19 @@ std::string StudyTable::text() const {
   return text;
 }
 
-std::string StudyTable::sentence() const {
-  const std::vector<TradeOff> runs = trade_offs();
+std::string StudyTable::verdict() const {
+  std::string text = sentence(trade_offs());
+  const auto judged = std::count_if(study_.quantities.begin(), study_.quantities.end(), has_reference);
+  for (std::size_t k = 0; k < study_.quantities.size() && judged > 1; ++k)
+    if (has_reference(study_.quantities[k]))
+      text += fmt::format("\n  {} alone: {}", study_.quantities[k].name, sentence(trade_offs(k)));
+  return text;
+}
+
+std::string StudyTable::sentence(const std::vector<TradeOff>& runs) const {
   const auto told = [&](std::size_t i) {
     return fmt::format("{}, {:.3g} s (error {:.2g} %)", variables_text(rows_[i].run.swept), seconds(rows_[i]),
-                       100 * *rows_[i].error);
+                       100 * *runs[i].error);
   };
   if (const auto best = fastest_within(runs, study_.within))
     return fmt::format("fastest within {:g} %: {}", 100 * study_.within, told(*best));

@@ -127,12 +127,22 @@ TEST_CASE("a table takes the largest error, no smaller than the reference is unc
   CHECK(table.rows()[0].on_front);
   CHECK(table.rows()[1].on_front);
   CHECK_FALSE(table.rows()[2].on_front);
-  CHECK(table.sentence() == "fastest within 3 %: n=2, 4 s (error 2 %)");
+  CHECK(table.verdict() == "fastest within 3 %: n=2, 4 s (error 2 %)");
   StudyTable by_core(study, StudyTime::core);
   for (const StudyRow& one : table.rows()) by_core.add(one);
-  CHECK(by_core.sentence() == "fastest within 3 %: n=3, 1 s (error 2 %)");
+  CHECK(by_core.verdict() == "fastest within 3 %: n=3, 1 s (error 2 %)");
+  study.quantities.push_back({"lift", {}, 1.0, false, "by hand", 0});
+  StudyTable two(study, StudyTime::wall);
+  for (StudyRow one : table.rows()) {
+    one.values.push_back(one.record.wall == 9 ? 1 : 2);
+    two.add(one);
+  }
+  CHECK(two.verdict() ==
+        "fastest within 3 %: n=3, 9 s (error 2 %)\n  drag alone: fastest within 3 %: n=2, 4 s (error 2 %)\n"
+        "  lift alone: fastest within 3 %: n=3, 9 s (error 0 %)");
+  study.quantities.pop_back();
   study.within = 0.001;
-  CHECK(table.sentence().find("no run is within 0.1 %; the most accurate: n=2") == 0);
+  CHECK(table.verdict().find("no run is within 0.1 %; the most accurate: n=2") == 0);
 }
 
 TEST_CASE("the finest run is the reference, and takes no part") {

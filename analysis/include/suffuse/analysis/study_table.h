@@ -36,15 +36,20 @@ class StudyTable {
 
   /// For the screen: runs by their time, the front marked, those that failed with their reasons below.
   std::string text() const;
-  /// "fastest within 3 %: resolution=5, 12.3 s (error 1.6 %)".
-  std::string sentence() const;
+  /// "fastest within 3 %: resolution=5, 12.3 s (error 1.6 %)"; where several quantities have a reference, a
+  /// line for each of them alone behind it.
+  std::string verdict() const;
   /// A row a run: variables, status, seconds, quantities, references, errors, front.
   void write_csv(const std::string& path) const;
 
  private:
   double seconds(const StudyRow& row) const;
-  std::vector<TradeOff> trade_offs() const;
+  /// By the largest error, or by that of one quantity.
+  std::vector<TradeOff> trade_offs(std::optional<std::size_t> quantity = std::nullopt) const;
+  std::string sentence(const std::vector<TradeOff>& runs) const;
   void work_out_errors();
+  /// No smaller than the reference is uncertain.
+  std::optional<double> counted_error(const StudyRow& row, std::size_t quantity) const;
   std::vector<std::size_t> by_time() const;
   std::string finished_text() const;
   std::string failed_text() const;
