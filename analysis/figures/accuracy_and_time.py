@@ -70,21 +70,29 @@ class Looks:
         return entries
 
 
-def label(axes, row, text, corner=0):
-    """Beside a point: right above, right below, left above or left below."""
+def label(axes, texts):
+    """Writes (row, text) beside the points: right above, right below, left above or left below, where no other label stands; where
+    all four are taken a point goes without."""
     import matplotlib.patheffects as effects
 
-    right, above = corner < 2, corner % 2 == 0
-    axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5 if right else -5, 4 if above else -4), textcoords="offset points", fontsize=6.5,
-                  ha="left" if right else "right", va="bottom" if above else "top", annotation_clip=False, zorder=1.5,
-                  path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
+    axes.figure.canvas.draw()  # places everything, so that labels have sizes
+    taken = []
+    for row, text in texts:
+        for right, above in ((True, True), (True, False), (False, True), (False, False)):
+            note = axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5 if right else -5, 4 if above else -4), textcoords="offset points",
+                                 fontsize=6.5, ha="left" if right else "right", va="bottom" if above else "top", annotation_clip=False, zorder=1.5,
+                                 path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
+            box = note.get_window_extent()
+            if box.x0 >= axes.bbox.x0 and not any(box.overlaps(other) for other in taken):
+                taken.append(box)
+                break
+            note.remove()
 
 
-def label_front(axes, front, variables):
-    """Beside each point of the front the values that change along it."""
+def front_labels(front, variables):
+    """The values that change along the front."""
     changing = [name for name in variables if len({row[name] for row in front}) > 1] or variables[:1]
-    for row in front:
-        label(axes, row, ", ".join(row[name] for name in changing))
+    return [(row, ", ".join(row[name] for name in changing)) for row in front]
 
 
 def one_at_a_time(rows, variables):
@@ -130,11 +138,6 @@ def draw(rows, options):
     axes.set_xlim(low / (high / low) ** 0.05, high * (high / low) ** 0.12)  # room for the labels
     for row in failed:
         axes.plot(row["x"], 1, transform=axes.get_xaxis_transform(), clip_on=False, **(looks.of(row) | {"marker": "x", "fillstyle": "full"}))
-    if singly:
-        for k, row in enumerate(sorted(runs, key=lambda row: row["x"])):  # neighbours to other sides
-            label(axes, row, row["label"], k % 4)
-    else:
-        label_front(axes, front, options.variables)
     if options.within:
         axes.axhline(100 * options.within, **style.REFERENCE)
         axes.annotate(f"{100 * options.within:g} %", xy=(0, 100 * options.within), xycoords=("axes fraction", "data"), xytext=(2, 2),
@@ -149,6 +152,7 @@ def draw(rows, options):
     if failed:
         entries.append(Line2D([], [], linestyle="", marker="x", color="#606060", label="failed"))
     axes.legend(handles=entries, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), handletextpad=0.2)
+    label(axes, [(row, row["label"]) for row in sorted(runs, key=lambda row: row["y"])] if singly else front_labels(front[::-1], options.variables))
     style.save(figure, options.output)
 
 

@@ -149,8 +149,9 @@ std::string StudyTable::failed_text() const {
 std::string StudyTable::text() const {
   const bool by_wall = time_ == StudyTime::wall;
   std::string text = finished_text();
-  text += fmt::format("*: no other run is both faster ({} time) and more accurate{}\n",
-                      by_wall ? "wall" : "core", study_.finest.empty() ? "" : "; r: the reference");
+  if (judged() > 0)
+    text += fmt::format("*: no other run is both faster ({} time) and more accurate{}\n",
+                        by_wall ? "wall" : "core", study_.finest.empty() ? "" : "; r: the reference");
   text += failed_text();
   double other = 0;
   for (const StudyRow& row : rows_) other = std::max(other, row.record.other_cores);
@@ -161,10 +162,14 @@ std::string StudyTable::text() const {
   return text;
 }
 
+std::ptrdiff_t StudyTable::judged() const {
+  return std::count_if(study_.quantities.begin(), study_.quantities.end(), has_reference);
+}
+
 std::string StudyTable::verdict() const {
+  if (judged() == 0) return "no quantity has a reference to judge by";
   std::string text = sentence(trade_offs());
-  const auto judged = std::count_if(study_.quantities.begin(), study_.quantities.end(), has_reference);
-  for (std::size_t k = 0; k < study_.quantities.size() && judged > 1; ++k)
+  for (std::size_t k = 0; k < study_.quantities.size() && judged() > 1; ++k)
     if (has_reference(study_.quantities[k]))
       text += fmt::format("\n  {} alone: {}", study_.quantities[k].name, sentence(trade_offs(k)));
   return text;

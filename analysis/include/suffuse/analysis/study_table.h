@@ -51,6 +51,7 @@ class StudyTable {
   /// No smaller than the reference is uncertain.
   std::optional<double> counted_error(const StudyRow& row, std::size_t quantity) const;
   std::vector<std::size_t> by_time() const;
+  std::ptrdiff_t judged() const;  ///< quantities with a reference
   std::string finished_text() const;
   std::string failed_text() const;
 
