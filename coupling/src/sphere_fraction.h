@@ -193,14 +193,18 @@ template <FractionMethod kMethod, class V>
     fraction = lesser(greater(fraction, V{}), V{} + 1.f);
   } else {
     const float part = 1.f / static_cast<float>(sphere.parts), square = sphere.radius * sphere.radius;
-    for (int k = 0; k < sphere.parts; ++k)
-      for (int j = 0; j < sphere.parts; ++j)
-        for (int i = 0; i < sphere.parts; ++i) {
-          const auto at = [&](int n) { return (static_cast<float>(n) + 0.5f) * part - 0.5f; };
-          const V x = dx + at(i), y = dy + at(j);
-          const float z = dz + at(k);
-          fraction += x * x + (y * y + z * z) < square ? V{} + part * part * part : V{};
-        }
+    V points{};
+    float z = dz + (0.5f * part - 0.5f);
+    for (int k = 0; k < sphere.parts; ++k, z += part) {
+      V y = dy + (0.5f * part - 0.5f);
+      for (int j = 0; j < sphere.parts; ++j, y += part) {
+        const V across = square - (y * y + z * z);
+        V x = dx + (0.5f * part - 0.5f), in_line{};  // its own sum: kept in a register
+        for (int i = 0; i < sphere.parts; ++i, x += part) in_line += x * x < across ? V{} + 1.f : V{};
+        points += in_line;
+      }
+    }
+    fraction = points * (part * part * part);
   }
   return in > 0.f ? in : (out > 0.f ? V{} : fraction);
 }
