@@ -37,7 +37,7 @@ double CoefficientLaw::operator()(double diameter, double surface_per_pore) cons
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
   switch (solid_operator) {
     case lbm::SolidOperator::force:
-      return {1.76, 2.2, 13.3, 54.5};
+      return {1.76, 1.79, 13.9, 53.4};
     case lbm::SolidOperator::sc3:
       return {0.64, 2.25, 7.6, 30.1};
     default:
