@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""dense_bed.py --suffuse PROGRAM --bed PROGRAM [--fraction linear] [--precision double] [--ranks 1] [--steps 200]
+"""dense_bed.py --suffuse PROGRAM --bed PROGRAM [--fraction linear] [--precision double] [--ranks 1]
+             [--grid "1 1 1"] [--mpirun "mpirun --bind-to core -np"] [--steps 200]
 
 The dense moving bed of coupled_step_benchmark with grains that LIGGGHTS moves: 7,958 spheres of 5 cells diameter settle in
 84 x 84 x 168 cells with no-slip walls, 10 DEM steps a fluid step. Prints each part of a step in milliseconds and as a
@@ -8,10 +9,12 @@ multiple of the bare update of the fluid's populations, which `lbm run` times at
 import argparse
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
 
+ROOT = pathlib.Path(__file__).resolve().parents[1]
 SPACING, CELLS = 2e-4, (84, 84, 168)
 DIAMETER = 5 * SPACING
 VISCOSITY, RELAXATION_TIME, SUBSTEPS = 1e-5, 0.6, 10
@@ -72,13 +75,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--suffuse", default="build/release/bin/suffuse")
     parser.add_argument("--bed", default="build/release/bin/coupled_step_benchmark", help="writes the centres")
-    parser.add_argument("--mpirun", default="scripts/mpirun")
+    parser.add_argument("--mpirun", default=str(ROOT / "scripts" / "mpirun"), help="what comes before the number of ranks")
     parser.add_argument("--fraction", default="linear")
     parser.add_argument("--precision", default="double")
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--grid", help="ranks along x, y and z; default: all along z")
     parser.add_argument("--steps", type=int, default=200)
     options = parser.parse_args()
-    suffuse, bed, mpirun = (str(pathlib.Path(p).resolve()) for p in (options.suffuse, options.bed, options.mpirun))
+    suffuse, bed = (str(pathlib.Path(p).resolve()) for p in (options.suffuse, options.bed))
     with tempfile.TemporaryDirectory(prefix="suffuse-") as name:
         folder = pathlib.Path(name)
         subprocess.run([bed, "--write_bed", "centres"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
@@ -87,10 +91,10 @@ def main():
         (folder / "in.bed").write_text(SCRIPT.format(
             high=high, grain_step=TIME_STEP / SUBSTEPS, viscosity=VISCOSITY, spacing=SPACING, fraction=options.fraction,
             relaxation_time=RELAXATION_TIME, precision=options.precision, warm_up=20 * TIME_STEP,
-            time=options.steps * TIME_STEP, processors=f"1 1 {options.ranks}"))
+            time=options.steps * TIME_STEP, processors=options.grid or f"1 1 {options.ranks}"))
         run = [suffuse, "-in", "in.bed"]
         if options.ranks > 1:
-            run = [mpirun, str(options.ranks)] + run
+            run = shlex.split(options.mpirun) + [str(options.ranks)] + run
         done = subprocess.run(run, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"ended with code {done.returncode}:\n{done.stdout[-2000:]}")
@@ -100,7 +104,7 @@ def main():
     share = float(re.search(r"(\d+) % of the memory", last).group(1)) / 100
     milliseconds = {part: float(value) for part, value in parts}
     bare = milliseconds["fluid"] * share
-    print(f"{len(centres)} grains, {options.fraction}, {options.precision}, ranks: {options.ranks}; bare update {bare:.2f} ms")
+    print(f"{len(centres)} grains, {options.fraction}, {options.precision}, ranks: {options.grid or options.ranks}; bare update {bare:.2f} ms")
     for part, value in list(milliseconds.items()) + [("step", sum(milliseconds.values()))]:
         print(f"{part:22}{value:9.2f} ms{value / bare:8.2f} x bare")
 

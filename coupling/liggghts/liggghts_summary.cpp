@@ -160,7 +160,7 @@ PastRun LiggghtsPort::past_run() const {
   double seconds = lmp_->timer->array[TIME_LOOP];
   MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, lmp_->world);
   const double grains = static_cast<double>(lmp_->atom->natoms);
-  constexpr double least_seconds = 0.1;
+  constexpr double least_seconds = 0.02;  // well above what starting a run takes
   if (!(seconds > least_seconds) || steps * grains <= 0) return {};
   return {steps * grains, seconds};
 }

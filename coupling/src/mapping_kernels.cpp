@@ -12,22 +12,19 @@ namespace {
 /// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-16 (up to 64).
 constexpr float kFractionRounding = 3.f, kStrengthRounding = 192.f;
 
-/// The rows of a block that a sphere reaches.
-struct Slice {
-  int begin, end;
-  double dz;  ///< of the plane from the sphere's centre
-};
+[[gnu::always_inline]] inline double plane_from_centre(const MappedSphere& m, const SliceList& list,
+                                                       const CellArrays& arrays) {
+  return list.z + arrays.lo[2] + 0.5 - m.position[2];
+}
 
-[[gnu::always_inline]] inline Slice slice_of(const MappedSphere& m, const SliceList& list,
-                                             const CellArrays& arrays) {
-  Slice slice{0, 0, list.z + arrays.lo[2] + 0.5 - m.position[2]};
-  const double left = m.reach * m.reach - slice.dz * slice.dz;
-  if (!(left > 0)) return slice;
+[[gnu::always_inline]] inline SliceRows rows_of(const MappedSphere& m, const SliceList& list,
+                                                const CellArrays& arrays) {
+  const double dz = plane_from_centre(m, list, arrays), left = m.reach * m.reach - dz * dz;
+  if (!(left > 0)) return {0, 0};
   const double half = __builtin_sqrt(left), middle = m.position[1] - 0.5 - arrays.lo[1];
   const double first = __builtin_ceil(middle - half), last = __builtin_floor(middle + half);
-  slice.begin = first > list.begin_y ? static_cast<int>(first) : list.begin_y;
-  slice.end = last + 1 < list.end_y ? static_cast<int>(last) + 1 : list.end_y;
-  return slice;
+  return {first > list.begin_y ? static_cast<int>(first) : list.begin_y,
+          last + 1 < list.end_y ? static_cast<int>(last) + 1 : list.end_y};
 }
 
 /// The lists' spheres lie apart in memory: what slice i + 4 needs is fetched while slice i is worked on.
@@ -45,12 +42,11 @@ enum class Target { cells, entries_only };
 /// Returns the end of the slice's entries.
 template <FractionMethod kMethod, bool kOwn, Target kTarget>
 [[gnu::always_inline]] inline float* map_slice(const MappedSphere& m, const SliceList& list,
-                                               const FractionRule& rule, const CellArrays& arrays,
-                                               float* entries) {
-  const Slice slice = slice_of(m, list, arrays);
+                                               const SliceRows& rows, const FractionRule& rule,
+                                               const CellArrays& arrays, float* entries) {
   const Sphere sphere{m.radius, m.linear_offset, rule.subcells};
   const float first_x = static_cast<float>(m.x_start + arrays.lo[0] + 0.5 - m.position[0]);
-  const float dz = static_cast<float>(slice.dz), coefficient = m.coefficient;
+  const float dz = static_cast<float>(plane_from_centre(m, list, arrays)), coefficient = m.coefficient;
   const float wx = m.angular_velocity[0], wy = m.angular_velocity[1], wz = m.angular_velocity[2];
   const float ux = m.velocity[0] + wy * dz, uy = m.velocity[1] - wx * dz, uz = m.velocity[2];
   const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
@@ -60,11 +56,9 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
     const Floats turning_y = uy + wz * dx, turning_z = uz - wy * dx;
     const auto in_row = kLaneNumbers < static_cast<float>(arrays.cells_x - x);
     const std::ptrdiff_t first = x + arrays.plane_pitch * list.z;
-    for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
-      const float dy = static_cast<float>(y + lo_y);
-      Floats fraction = covered<kMethod>(sphere, dx, dy, dz);
-      fraction = (fraction + kFractionRounding) - kFractionRounding;
-      fraction = in_row ? fraction : Floats{};
+    const auto write = [&](int y, float dy, const Floats& covered_part) {
+      const Floats rounded = (covered_part + kFractionRounding) - kFractionRounding;
+      const Floats fraction = in_row ? rounded : Floats{};
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       Floats strength = fraction;
       if constexpr (kOwn) {
@@ -73,51 +67,75 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
         strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
       }
       store(entries, strength);
-      if constexpr (kTarget == Target::entries_only) continue;
+      entries += kLanes;
+      if constexpr (kTarget == Target::entries_only) return;
       store(arrays.fraction + cell, load(arrays.fraction + cell) + fraction);
       if constexpr (kOwn) store(arrays.strength + cell, load(arrays.strength + cell) + strength);
       float* const* momentum = arrays.momentum;
       store(momentum[0] + cell, load(momentum[0] + cell) + strength * (ux - wz * dy));
       store(momentum[1] + cell, load(momentum[1] + cell) + strength * turning_y);
       store(momentum[2] + cell, load(momentum[2] + cell) + strength * (turning_z + wx * dy));
+    };
+    int y = rows.begin;
+    if constexpr (kMethod == FractionMethod::exact) {  // a long chain of operations: two rows at a time
+      for (; y < rows.end; y += 2) {
+        const float dy[2] = {static_cast<float>(y + lo_y), static_cast<float>(y + 1 + lo_y)};
+        const TwoRows parts =
+            covered<kMethod>(sphere, two_rows(dx, dx), two_rows(Floats{} + dy[0], Floats{} + dy[1]), dz);
+        write(y, dy[0], row_of(parts, 0));
+        if (y + 1 < rows.end) write(y + 1, dy[1], row_of(parts, 1));
+      }
+      continue;
+    }
+    for (; y < rows.end; ++y) {
+      const float dy = static_cast<float>(y + lo_y);
+      write(y, dy, covered<kMethod>(sphere, dx, Floats{} + dy, dz));
     }
   }
   return entries;
 }
 
+/// All at once and before they are needed: a loop over rows whose number follows from a square root is known
+/// too late to the processor.
+void note_rows(const SliceList& list, const CellArrays& arrays, SliceRows* rows) {
+  for (int i = 0; i < list.count; ++i) {
+    fetch_record(list.spheres, list, i);
+    rows[i] = rows_of(list.spheres[list.numbers[i]], list, arrays);
+  }
+}
+
 template <FractionMethod kMethod, bool kOwn, Target kTarget>
-void map_all(const SliceList& list, const FractionRule& rule, const CellArrays& given, float* entries) {
+void map_all(const SliceList& list, const FractionRule& rule, const CellArrays& given,
+             const SliceNotes& notes) {
   const CellArrays arrays = given;  // a copy of our own: stores cannot change it
+  const SliceRows* rows = notes.rows;
+  float* entries = notes.entries;
+  note_rows(list, arrays, notes.rows);
   for (int i = 0; i < list.count; ++i) {
     fetch_record(list.spheres, list, i);
     const MappedSphere& m = list.spheres[list.numbers[i]];
     if (kMethod == FractionMethod::linear && m.radius < kLeastLinearRadius)
-      entries = map_slice<FractionMethod::exact, kOwn, kTarget>(m, list, rule, arrays, entries);
+      entries = map_slice<FractionMethod::exact, kOwn, kTarget>(m, list, rows[i], rule, arrays, entries);
     else
-      entries = map_slice<kMethod, kOwn, kTarget>(m, list, rule, arrays, entries);
+      entries = map_slice<kMethod, kOwn, kTarget>(m, list, rows[i], rule, arrays, entries);
   }
 }
 
 template <Target kTarget>
-void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
+void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,
+            const SliceNotes& notes) {
   const bool own = rule.own_coefficients;
   switch (rule.method) {
     case FractionMethod::exact:
-      return own ? map_all<FractionMethod::exact, true, kTarget>(list, rule, arrays, entries)
-                 : map_all<FractionMethod::exact, false, kTarget>(list, rule, arrays, entries);
+      return own ? map_all<FractionMethod::exact, true, kTarget>(list, rule, arrays, notes)
+                 : map_all<FractionMethod::exact, false, kTarget>(list, rule, arrays, notes);
     case FractionMethod::linear:
-      return own ? map_all<FractionMethod::linear, true, kTarget>(list, rule, arrays, entries)
-                 : map_all<FractionMethod::linear, false, kTarget>(list, rule, arrays, entries);
+      return own ? map_all<FractionMethod::linear, true, kTarget>(list, rule, arrays, notes)
+                 : map_all<FractionMethod::linear, false, kTarget>(list, rule, arrays, notes);
     case FractionMethod::subcells:
-      return own ? map_all<FractionMethod::subcells, true, kTarget>(list, rule, arrays, entries)
-                 : map_all<FractionMethod::subcells, false, kTarget>(list, rule, arrays, entries);
+      return own ? map_all<FractionMethod::subcells, true, kTarget>(list, rule, arrays, notes)
+                 : map_all<FractionMethod::subcells, false, kTarget>(list, rule, arrays, notes);
   }
-}
-
-/// The share of each cell's exchange that belongs to the sphere: exactly 1 where it is alone.
-[[gnu::always_inline]] inline Doubles shares(const Floats& own, const Floats& all) {
-  const Floats divisor = all > 0.f ? all : Floats{} + 1.f;
-  return widened(own) / widened(divisor);
 }
 
 /// See lbm::HeldTerms. A cell that a grain barely touches may have a strength of nothing, and no exchange
@@ -129,106 +147,144 @@ void map_by(const SliceList& list, const FractionRule& rule, const CellArrays& a
   return covered * (held.base + away / greater(strength, Floats{} + 1e-12f));
 }
 
+/// A row's exchange and its sums over a slice's few rows keep the fluid's storage type.
 template <class T>
-[[gnu::always_inline]] inline Doubles load_exchange(const T* from) {
-  if constexpr (sizeof(T) == sizeof(float))
-    return widened(load(from));
-  else
+struct Row;
+template <>
+struct Row<double> {
+  typedef Doubles Values;
+  [[gnu::always_inline]] static Values load_from(const double* from) {
     return *reinterpret_cast<const UnalignedDoubles*>(from);
-}
-
-[[gnu::always_inline]] inline double sum_of(const Doubles& v) {
-  typedef double Four __attribute__((vector_size(32)));
-  typedef double Two __attribute__((vector_size(16)));
-  const Four four = __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
-  const Two two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
-  return two[0] + two[1];
-}
-
-/// Sum of vectors h that act at cells of a slice, and of their moments about the sphere's centre.
-struct Moments {
-  Doubles hx{}, hy{}, hz{}, y_hx{}, y_hz{}, x_hy{}, x_hz{};
-
-  [[gnu::always_inline]] void add(const Doubles& x, const Doubles& y, const Doubles& z, const Doubles& dx,
-                                  double dy) {
-    hx += x;
-    hy += y;
-    hz += z;
-    y_hx += dy * x;
-    y_hz += dy * z;
-    x_hy += dx * y;
-    x_hz += dx * z;
   }
-  [[gnu::always_inline]] void add_to(double* force, double* torque, double dz) const {
-    const double sum[3] = {sum_of(hx), sum_of(hy), sum_of(hz)};
-    for (int a = 0; a < 3; ++a) force[a] += sum[a];
-    torque[0] += sum_of(y_hz) - dz * sum[1];
-    torque[1] += dz * sum[0] - sum_of(x_hz);
-    torque[2] += sum_of(x_hy - y_hx);
+  [[gnu::always_inline]] static Values of(const Floats& v) { return widened(v); }
+  [[gnu::always_inline]] static Doubles sum(const Values& v) { return v; }
+};
+template <>
+struct Row<float> {
+  typedef Floats Values;
+  [[gnu::always_inline]] static Values load_from(const float* from) { return load(from); }
+  [[gnu::always_inline]] static Values of(const Floats& v) { return v; }
+  [[gnu::always_inline]] static Doubles sum(const Values& v) { return widened(v); }
+};
+
+typedef double Four __attribute__((vector_size(32)));
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// The sums of four vectors' lanes.
+[[gnu::always_inline]] inline Four sums_of(const Doubles& a, const Doubles& b, const Doubles& c,
+                                           const Doubles& d) {
+  const Doubles ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
+                     __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Doubles cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14) +
+                     __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Doubles all = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13) +
+                      __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+  return __builtin_shufflevector(all, all, 0, 1, 2, 3) + __builtin_shufflevector(all, all, 4, 5, 6, 7);
+}
+
+/// Sum of vectors that act at cells of a slice, and of their moments about the sphere's centre.
+struct Moments {
+  Doubles force[3]{}, torque[3]{};
+};
+
+/// The same for one pack of columns, row by row. The rows' moments come from sums of sums: with h_j in row j
+/// of n at dy_j, the sum of dy_j h_j is dy_n (h_0 + ... + h_{n-1}) less the sum over all rows of what had
+/// been added up by then. So each row costs additions only, and the columns' moments wait until the end.
+template <class T>
+struct ColumnSums {
+  using Values = typename Row<T>::Values;
+  Values x{}, y{}, z{}, past_x{}, past_z{};
+
+  [[gnu::always_inline]] void add(const Values& weight, const Values (&h)[3]) {
+    x += weight * h[0];
+    y += weight * h[1];
+    z += weight * h[2];
+    past_x += x;
+    past_z += z;
+  }
+  /// dy: of the row after the last.
+  [[gnu::always_inline]] void add_to(Moments& moments, const Doubles& dx, double dy, double dz) const {
+    const Doubles fx = Row<T>::sum(x), fy = Row<T>::sum(y), fz = Row<T>::sum(z);
+    moments.force[0] += fx;
+    moments.force[1] += fy;
+    moments.force[2] += fz;
+    moments.torque[0] += (dy * fz - Row<T>::sum(past_z)) - dz * fy;
+    moments.torque[1] += dz * fx - dx * fz;
+    moments.torque[2] += dx * fy - (dy * fx - Row<T>::sum(past_x));
   }
 };
 
 /// Returns the end of the slice's entries.
 template <class T>
 [[gnu::always_inline]] inline const float* sum_slice(const MappedSphere& m, const SliceList& list,
-                                                     const CellArrays& arrays, const HeldRule& held,
-                                                     const T* const* exchange, const float* entries,
-                                                     LatticeLoad& load_sum) {
-  const Slice slice = slice_of(m, list, arrays);
+                                                     const SliceRows& rows, const CellArrays& arrays,
+                                                     const HeldRule& held, const T* const* exchange,
+                                                     const float* entries, LatticeLoad& load_sum) {
+  if (rows.begin >= rows.end) return entries;
   const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
-  const double lo_y = arrays.lo[1] + 0.5 - m.position[1];
+  const double end_y = rows.end + (arrays.lo[1] + 0.5 - m.position[1]);
+  const double dz = plane_from_centre(m, list, arrays);
   Moments all, lead;
   for (int pack = 0; pack < m.packs; ++pack) {
     const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
     const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
-    for (int y = slice.begin; y < slice.end; ++y, entries += kLanes) {
+    ColumnSums<T> taken, ahead;
+    for (int y = rows.begin; y < rows.end; ++y, entries += kLanes) {
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
-      const double dy = y + lo_y;
-      const Floats strength = load(arrays.strength + cell);
-      const Doubles share = shares(load(entries), strength);
-      const Doubles hx = share * load_exchange(exchange[0] + cell),
-                    hy = share * load_exchange(exchange[1] + cell),
-                    hz = share * load_exchange(exchange[2] + cell);
-      all.add(hx, hy, hz, dx, dy);
-      const Doubles factor = widened(held_factor(held, load(arrays.fraction + cell), strength));
-      lead.add(factor * hx, factor * hy, factor * hz, dx, dy);
+      const Floats own = load(entries);
+      const Floats factor = held_factor(held, load(arrays.fraction + cell), load(arrays.strength + cell));
+      const typename Row<T>::Values h[3] = {Row<T>::load_from(exchange[0] + cell),
+                                            Row<T>::load_from(exchange[1] + cell),
+                                            Row<T>::load_from(exchange[2] + cell)};
+      taken.add(Row<T>::of(own), h);
+      ahead.add(Row<T>::of(factor * own), h);
     }
+    taken.add_to(all, dx, end_y, dz);
+    ahead.add_to(lead, dx, end_y, dz);
   }
-  all.add_to(load_sum.force, load_sum.torque, slice.dz);
-  lead.add_to(load_sum.lead, load_sum.spin_lead, slice.dz);
+  const Four sums[3] = {sums_of(all.force[0], all.force[1], all.force[2], all.torque[0]),
+                        sums_of(all.torque[1], all.torque[2], lead.force[0], lead.force[1]),
+                        sums_of(lead.force[2], lead.torque[0], lead.torque[1], lead.torque[2])};
+  static_assert(sizeof(LatticeLoad) == sizeof sums, "force, torque, lead, spin_lead, nothing else");
+  char* to = reinterpret_cast<char*>(&load_sum);
+  for (int i = 0; i < 3; ++i) *reinterpret_cast<UnalignedFour*>(to + 32 * i) += sums[i];
   return entries;
 }
 
 template <class T>
 void sum_all(const SliceList& list, const CellArrays& given, const HeldRule& rule, const T* const* exchange,
-             const float* entries, LatticeLoad* loads) {
+             const SliceNotes& notes, LatticeLoad* loads) {
   const CellArrays arrays = given;
   const HeldRule held = rule;
   const T* const from[3] = {exchange[0], exchange[1], exchange[2]};
+  const SliceRows* rows = notes.rows;
+  const float* entries = notes.entries;
   for (int i = 0; i < list.count; ++i) {
     fetch_record(list.spheres, list, i);
     fetch_record(loads, list, i);
     const int n = list.numbers[i];
-    entries = sum_slice<T>(list.spheres[n], list, arrays, held, from, entries, loads[n]);
+    entries = sum_slice<T>(list.spheres[n], list, rows[i], arrays, held, from, entries, loads[n]);
   }
 }
 
 }  // namespace
 
-void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
-  map_by<Target::cells>(list, rule, arrays, entries);
+void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,
+                const SliceNotes& notes) {
+  map_by<Target::cells>(list, rule, arrays, notes);
 }
 
-void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, float* entries) {
-  map_by<Target::entries_only>(list, rule, arrays, entries);
+void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,
+                  const SliceNotes& notes) {
+  map_by<Target::entries_only>(list, rule, arrays, notes);
 }
 
-void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held, const float* entries,
+void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held, const SliceNotes& notes,
                LatticeLoad* loads) {
   if (arrays.exchange_double[0] != nullptr)
-    sum_all<double>(list, arrays, held, arrays.exchange_double, entries, loads);
+    sum_all<double>(list, arrays, held, arrays.exchange_double, notes, loads);
   else
-    sum_all<float>(list, arrays, held, arrays.exchange_float, entries, loads);
+    sum_all<float>(list, arrays, held, arrays.exchange_float, notes, loads);
 }
 
 }  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

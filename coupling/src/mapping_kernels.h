@@ -44,20 +44,26 @@ struct SliceList {
   int count;
 };
 
+/// What is kept of the slices of one block until their loads are summed.
+struct SliceNotes {
+  SliceRows* rows;  ///< one a slice
+  float* entries;   ///< the slices' own strengths, eight for each row of each pack of a slice
+};
+
 /// One set of entry points for each instruction set, defined by compiling mapping_kernels.cpp for it.
 ///
 /// map_slices adds the slices to the cells, one after the other.
-/// strengths_of leaves the cells alone; both store the slices' own strengths in `entries`, eight a pack.
-/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these entries, and to
+/// strengths_of leaves the cells alone; both write the slices' notes.
+/// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these notes, and to
 /// `lead` and `spin_lead` what the rule makes of it.
 #define SUFFUSE_DECLARE_MAPPING(instruction_set)                                               \
   namespace instruction_set {                                                                  \
   void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,   \
-                  float* entries);                                                             \
+                  const SliceNotes& notes);                                                    \
   void strengths_of(const SliceList& list, const FractionRule& rule, const CellArrays& arrays, \
-                    float* entries);                                                           \
+                    const SliceNotes& notes);                                                  \
   void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held,        \
-                 const float* entries, LatticeLoad* loads);                                    \
+                 const SliceNotes& notes, LatticeLoad* loads);                                 \
   }
 SUFFUSE_DECLARE_MAPPING(portable)
 SUFFUSE_DECLARE_MAPPING(avx2)

@@ -184,7 +184,8 @@ void SolidMapping::list_slices() {
   }
   slices_.resize(static_cast<std::size_t>(first_slice_[blocks]));
   entries_.resize(std::max(entries_.size(), 8 * widest * static_cast<std::size_t>(most)));
-  entries_block_ = -1;
+  rows_.resize(std::max(rows_.size(), static_cast<std::size_t>(most)));
+  noted_block_ = -1;
   std::vector<int> next(first_slice_.begin(), first_slice_.end() - 1);
   for (const int n : order_)
     for_blocks(mapped_[static_cast<std::size_t>(n)],
@@ -196,6 +197,10 @@ SliceList SolidMapping::slices_in(const lbm::RowBlock& block) const {
   const int first = first_slice_[number];
   return {block.z,        block.begin_y,          block.end_y,
           mapped_.data(), slices_.data() + first, first_slice_[number + 1] - first};
+}
+
+SliceNotes SolidMapping::notes() {
+  return {rows_.data(), entries_.data()};
 }
 
 void SolidMapping::clear_rows(const lbm::RowBlock& block) const {
@@ -244,7 +249,7 @@ std::size_t SolidMapping::place(const std::vector<LatticeSphere>& spheres) {
 void SolidMapping::set_pore_coefficients(const float* coefficients) {
   pore_coefficients_ = coefficients;
   for (const MappedSphere& m : mapped_) mark(m);
-  entries_block_ = -1;
+  noted_block_ = -1;
 }
 
 void SolidMapping::write_rows(const lbm::RowBlock& block) {
@@ -252,8 +257,8 @@ void SolidMapping::write_rows(const lbm::RowBlock& block) {
   clear_rows(block);
   const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
   kernels_of(instruction_set_)
-      .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), entries_.data());
-  entries_block_ = static_cast<std::ptrdiff_t>(number_of(block));
+      .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), notes());
+  noted_block_ = static_cast<std::ptrdiff_t>(number_of(block));
 }
 
 void SolidMapping::finish_writing() {
@@ -280,14 +285,14 @@ void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArray
   const CellArrays arrays = plain(arrays_, box_, exchange, pore_coefficients_);
   const Kernels kernels = kernels_of(instruction_set_);
   const auto number = static_cast<std::ptrdiff_t>(number_of(block));
-  if (entries_block_ != number) {
+  if (noted_block_ != number) {
     const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-    kernels.strengths_of(list, rule, arrays, entries_.data());
-    entries_block_ = number;
+    kernels.strengths_of(list, rule, arrays, notes());
+    noted_block_ = number;
   }
   const HeldRule held{static_cast<float>(held_.base), static_cast<float>(held_.slope),
                       static_cast<float>(held_.least)};
-  kernels.sum_loads(list, arrays, held, entries_.data(), loads_.data());
+  kernels.sum_loads(list, arrays, held, notes(), loads_.data());
 }
 
 void SolidMapping::begin_loads(double relaxation_time) {
@@ -320,6 +325,7 @@ double SolidMapping::overlap() const {
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
          loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
+         rows_.capacity() * sizeof(SliceRows) +
          (slices_.capacity() + first_slice_.capacity() + order_.capacity()) * sizeof(int);
 }
 

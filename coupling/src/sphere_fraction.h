@@ -1,6 +1,7 @@
 #pragma once
 
-/// Which part of a cell a sphere covers, for eight neighbouring cells at a time. Lengths in cells.
+/// Which part of a cell a sphere covers, for eight neighbouring cells at a time, or for those of two rows.
+/// Lengths in cells.
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -12,6 +13,7 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 inline constexpr int kLanes = 8;
 typedef float Floats __attribute__((vector_size(32)));
+typedef float TwoRows __attribute__((vector_size(64)));
 typedef double Doubles __attribute__((vector_size(64)));
 typedef float UnalignedFloats __attribute__((vector_size(32), aligned(4), may_alias));
 typedef double UnalignedDoubles __attribute__((vector_size(64), aligned(8), may_alias));
@@ -52,13 +54,6 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
   return a > b ? a : b;
 #endif
 }
-[[gnu::always_inline]] inline Floats magnitude(const Floats& v) {
-  return greater(v, -v);
-}
-[[gnu::always_inline]] inline Floats positive_cubed(const Floats& v) {
-  const Floats p = greater(v, Floats{});
-  return p * p * p;
-}
 /// Is any lane not zero?
 [[gnu::always_inline]] inline bool any(const Floats& v) {
 #ifdef __AVX__
@@ -68,6 +63,52 @@ inline constexpr Floats kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
   for (int lane = 0; lane < kLanes; ++lane) found |= v[lane] != 0;
   return found;
 #endif
+}
+
+[[gnu::always_inline]] inline Floats row_of(const TwoRows& v, int row) {
+  return row == 0 ? __builtin_shufflevector(v, v, 0, 1, 2, 3, 4, 5, 6, 7)
+                  : __builtin_shufflevector(v, v, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+[[gnu::always_inline]] inline TwoRows two_rows(const Floats& a, const Floats& b) {
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+}
+#ifdef __AVX512F__
+// The masked forms with all lanes on: the plain ones make GCC 12 warn about its own header.
+inline constexpr __mmask16 kAllLanes = 0xffff;
+[[gnu::always_inline]] inline TwoRows square_root(const TwoRows& v) {
+  return _mm512_maskz_sqrt_ps(kAllLanes, v);
+}
+[[gnu::always_inline]] inline TwoRows lesser(const TwoRows& a, const TwoRows& b) {
+  return _mm512_maskz_min_ps(kAllLanes, a, b);
+}
+[[gnu::always_inline]] inline TwoRows greater(const TwoRows& a, const TwoRows& b) {
+  return _mm512_maskz_max_ps(kAllLanes, a, b);
+}
+[[gnu::always_inline]] inline bool any(const TwoRows& v) {
+  return _mm512_cmp_ps_mask(v, TwoRows{}, _CMP_NEQ_UQ) != 0;
+}
+#else
+[[gnu::always_inline]] inline TwoRows square_root(const TwoRows& v) {
+  return two_rows(square_root(row_of(v, 0)), square_root(row_of(v, 1)));
+}
+[[gnu::always_inline]] inline TwoRows lesser(const TwoRows& a, const TwoRows& b) {
+  return two_rows(lesser(row_of(a, 0), row_of(b, 0)), lesser(row_of(a, 1), row_of(b, 1)));
+}
+[[gnu::always_inline]] inline TwoRows greater(const TwoRows& a, const TwoRows& b) {
+  return two_rows(greater(row_of(a, 0), row_of(b, 0)), greater(row_of(a, 1), row_of(b, 1)));
+}
+[[gnu::always_inline]] inline bool any(const TwoRows& v) {
+  return any(row_of(v, 0)) || any(row_of(v, 1));
+}
+#endif
+template <class V>
+[[gnu::always_inline]] inline V magnitude(const V& v) {
+  return greater(v, -v);
+}
+template <class V>
+[[gnu::always_inline]] inline V positive_cubed(const V& v) {
+  const V p = greater(v, V{});
+  return p * p * p;
 }
 
 /// Half of a cell's diagonal: beyond radius + this nothing is covered, within radius - this all is.
@@ -92,46 +133,46 @@ struct Sphere {
 /// the sphere's surface nearest to the cube's centre, moved inwards by the mean depth of the surface below it
 /// (t^2/2r, with the mean square distance t^2 in the cut taken from its orientation). The volume under a
 /// plane is Scardovelli and Zaleski's (docs key: scardovelli2000).
-[[gnu::always_inline]] inline Floats plane_cut(const Floats& x, const Floats& y, const Floats& z,
-                                               float radius) {
-  const Floats distance = square_root(x * x + y * y + z * z);
-  const Floats inverse = 1.f / greater(distance, Floats{} + 1e-6f);
+template <class V>
+[[gnu::always_inline]] inline V plane_cut(const V& x, const V& y, const V& z, float radius) {
+  const V distance = square_root(x * x + y * y + z * z);
+  const V inverse = 1.f / greater(distance, V{} + 1e-6f);
   // Normals parallel to a face divide by zero below; turned by this little they change the fraction by its
   // square.
   constexpr float least = 0.02f;
-  const Floats nx = greater(magnitude(x) * inverse, Floats{} + least),
-               ny = greater(magnitude(y) * inverse, Floats{} + least),
-               nz = greater(magnitude(z) * inverse, Floats{} + least);
-  const Floats sum = nx + ny + nz, product = nx * ny * nz;
+  const V nx = greater(magnitude(x) * inverse, V{} + least),
+          ny = greater(magnitude(y) * inverse, V{} + least),
+          nz = greater(magnitude(z) * inverse, V{} + least);
+  const V sum = nx + ny + nz, product = nx * ny * nz;
   // Mean of t^2 over the cut through the middle: 1/6 for a face, 5/24 for the hexagon across a diagonal.
   const float inverse_radius = 1 / radius;
-  const Floats curvature = (inverse_radius / 12) + ((27.f / 48) * inverse_radius) * (product * product);
-  const Floats offset =
-      0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
-  const Floats whole = offset > 0.5f * sum ? Floats{} + 1.f : Floats{};
-  const Floats low = lesser(offset, sum - offset);
-  const Floats largest = greater(nx, greater(ny, nz));
-  const Floats volume = (positive_cubed(low) - positive_cubed(low - nx) - positive_cubed(low - ny) -
-                         positive_cubed(low - nz) + positive_cubed(low - (sum - largest))) /
-                        (6.f * product);
+  const V curvature = (inverse_radius / 12) + ((27.f / 48) * inverse_radius) * (product * product);
+  const V offset = 0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
+  const V whole = offset > 0.5f * sum ? V{} + 1.f : V{};
+  const V low = lesser(offset, sum - offset);
+  const V largest = greater(nx, greater(ny, nz));
+  const V per_volume = 1.f / (6.f * product);  // long before it is needed
+  const V volume = (positive_cubed(low) - positive_cubed(low - nx) - positive_cubed(low - ny) -
+                    positive_cubed(low - nz) + positive_cubed(low - (sum - largest))) *
+                   per_volume;
   return whole > 0.f ? 1.f - volume : volume;
 }
 
-template <FractionMethod kMethod>
-[[gnu::always_inline]] inline Floats covered(const Sphere& sphere, const Floats& dx, float dy, float dz) {
-  const Floats squared = dx * dx + (dy * dy + dz * dz);
+template <FractionMethod kMethod, class V>
+[[gnu::always_inline]] inline V covered(const Sphere& sphere, const V& dx, const V& dy, float dz) {
+  const V squared = dx * dx + (dy * dy + dz * dz);
   if constexpr (kMethod == FractionMethod::linear) {
-    const Floats fraction = (sphere.linear_offset + sphere.radius) - square_root(squared);
-    return lesser(greater(fraction, Floats{}), Floats{} + 1.f);
+    const V fraction = (sphere.linear_offset + sphere.radius) - square_root(squared);
+    return lesser(greater(fraction, V{}), V{} + 1.f);
   }
   const float inside = sphere.radius - kHalfDiagonal, outside = sphere.radius + kHalfDiagonal;
-  const Floats in = inside > 0 ? (squared < inside * inside ? Floats{} + 1.f : Floats{}) : Floats{};
-  const Floats out = squared > outside * outside ? Floats{} + 1.f : Floats{};
+  const V in = inside > 0 ? (squared < inside * inside ? V{} + 1.f : V{}) : V{};
+  const V out = squared > outside * outside ? V{} + 1.f : V{};
   if (!any(1.f - (in + out))) return in;
-  Floats fraction{};
+  V fraction{};
   if constexpr (kMethod == FractionMethod::exact) {
     if (sphere.radius >= kLeastRadius) {
-      fraction = plane_cut(dx, Floats{} + dy, Floats{} + dz, sphere.radius);
+      fraction = plane_cut(dx, dy, V{} + dz, sphere.radius);
     } else {
       const float wanted = kLeastRadius / sphere.radius + 1.f;
       const int n = wanted < static_cast<float>(kMostParts) ? static_cast<int>(wanted) : kMostParts;
@@ -140,29 +181,28 @@ template <FractionMethod kMethod>
         for (int j = 0; j < n; ++j)
           for (int i = 0; i < n; ++i) {
             const auto at = [&](int part) { return static_cast<float>(part) + 0.5f - 0.5f * scale; };
-            const Floats x = scale * dx + at(i), y = Floats{} + (scale * dy + at(j)),
-                         z = Floats{} + (scale * dz + at(k));
+            const V x = scale * dx + at(i), y = scale * dy + at(j), z = V{} + (scale * dz + at(k));
             const float r = scale * sphere.radius;
-            const Floats d2 = x * x + y * y + z * z;
+            const V d2 = x * x + y * y + z * z;
             const float near = r - kHalfDiagonal, far = r + kHalfDiagonal;
-            const Floats cut = lesser(greater(plane_cut(x, y, z, r), Floats{}), Floats{} + 1.f);
-            fraction += d2 < near * near ? Floats{} + 1.f : (d2 > far * far ? Floats{} : cut);
+            const V cut = lesser(greater(plane_cut(x, y, z, r), V{}), V{} + 1.f);
+            fraction += d2 < near * near ? V{} + 1.f : (d2 > far * far ? V{} : cut);
           }
       fraction /= scale * scale * scale;
     }
-    fraction = lesser(greater(fraction, Floats{}), Floats{} + 1.f);
+    fraction = lesser(greater(fraction, V{}), V{} + 1.f);
   } else {
     const float part = 1.f / static_cast<float>(sphere.parts), square = sphere.radius * sphere.radius;
     for (int k = 0; k < sphere.parts; ++k)
       for (int j = 0; j < sphere.parts; ++j)
         for (int i = 0; i < sphere.parts; ++i) {
           const auto at = [&](int n) { return (static_cast<float>(n) + 0.5f) * part - 0.5f; };
-          const Floats x = dx + at(i);
-          const float y = dy + at(j), z = dz + at(k);
-          fraction += x * x + (y * y + z * z) < square ? Floats{} + part * part * part : Floats{};
+          const V x = dx + at(i), y = dy + at(j);
+          const float z = dz + at(k);
+          fraction += x * x + (y * y + z * z) < square ? V{} + part * part * part : V{};
         }
   }
-  return in > 0.f ? in : (out > 0.f ? Floats{} : fraction);
+  return in > 0.f ? in : (out > 0.f ? V{} : fraction);
 }
 
 }  // namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE

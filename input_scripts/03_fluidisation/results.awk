@@ -12,6 +12,7 @@ NR == 1 {
   mean = sum / layers
   if (NR == 2) {
     porosity = $column["bed_porosity"]
+    sauter = ("sauter_diameter_m" in column) ? $column["sauter_diameter_m"] : 3.478e-4
     top = $column["coordination_layer_1"]; bottom = $column["coordination_layer_" layers]
   }
   if (mean > 0.8 * critical) passed = 1
@@ -26,5 +27,6 @@ END {
   slope = (n * as - a * s) / (n * aa - a * a)
   printf "variable samples equal %d\nvariable measured_porosity equal %.8g\n", n, porosity
   printf "variable stress_gradient equal %.8g\nvariable conductivity equal %.8g\n", a / n - s / n / slope, (n * iv - i * v) / (n * ii - i * i)
+  printf "variable measured_sauter equal %.8g\n", sauter
   printf "variable coordination_top equal %.8g\nvariable coordination_bottom equal %.8g\n", top, bottom
 }

@@ -10,6 +10,7 @@
 #include "comm.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 
@@ -60,6 +61,7 @@ int FixHydrodynamicForce::setmask() {
 }
 
 void FixHydrodynamicForce::setup(int flag) {
+  stale_ = true;
   post_force(flag);
   pre_final_integrate();
 }
@@ -78,11 +80,21 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
   return ours;
 }
 
+/// Anew where grains have changed places or loads; in between a grain's own values stay where they are.
+void FixHydrodynamicForce::refresh_additions() {
+  const auto owned = static_cast<std::size_t>(atom->nlocal);
+  if (!stale_ && neighbor->ago > 0 && applied_.size() == owned) return;
+  applied_.resize(owned);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & groupbit) != 0) applied_[static_cast<std::size_t>(i)] = addition(i);
+  stale_ = false;
+}
+
 void FixHydrodynamicForce::post_force(int) {
-  applied_.resize(static_cast<std::size_t>(atom->nlocal));
+  refresh_additions();
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
-    const Addition& ours = applied_[static_cast<std::size_t>(i)] = addition(i);
+    const Addition& ours = applied_[static_cast<std::size_t>(i)];
     for (int a = 0; a < 3; ++a) {
       atom->f[i][a] += ours.force[a];
       atom->torque[i][a] += ours.torque[a];
@@ -146,11 +158,13 @@ void FixHydrodynamicForce::grow_arrays(int nmax) {
 void FixHydrodynamicForce::copy_arrays(int from, int to, int) {
   std::copy_n(array_atom[from], kLoadValues, array_atom[to]);
   std::copy_n(history_[from], kHistoryValues, history_[to]);
+  stale_ = true;
 }
 
 void FixHydrodynamicForce::set_arrays(int i) {
   std::fill_n(array_atom[i], kLoadValues, 0.);
   std::fill_n(history_[i], kHistoryValues, 0.);
+  stale_ = true;
 }
 
 int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
@@ -162,6 +176,7 @@ int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
 int FixHydrodynamicForce::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, kLoadValues, array_atom[i]);
   std::copy_n(buffer + kLoadValues, kHistoryValues, history_[i]);
+  stale_ = true;
   return kValues;
 }
 

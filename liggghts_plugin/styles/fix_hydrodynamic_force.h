@@ -77,9 +77,11 @@ class FixHydrodynamicForce : public Fix {
     double force_share, torque_share;
   };
   Addition addition(int i) const;
+  void refresh_additions();
 
   double** history_ = nullptr;
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
+  bool stale_ = true;              // grains have changed places since then
   bool restored_ = false;
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts
   std::vector<double>* sum_torque_ = nullptr;

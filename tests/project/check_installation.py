@@ -7,7 +7,7 @@ import tempfile
 
 EXPECTED_FILES = ["share/doc/suffuse/LICENSE", "share/doc/suffuse/README.md", "share/doc/suffuse/index.md",
                   "share/doc/suffuse/references.bib", "share/suffuse/figures/compression.py", "share/suffuse/figures/rose.py",
-                  "share/suffuse/data/thesis_table_4_1.csv", "bin/suffuse-analyse"]
+                  "share/suffuse/data/thesis_table_4_1.csv", "bin/suffuse-analyse", "bin/suffuse-study"]
 
 
 def main():

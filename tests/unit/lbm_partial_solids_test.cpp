@@ -68,7 +68,10 @@ double largest_difference(const FluidSettings& settings, const PartialSolidSetti
       if (arrays.fraction[place(x, y, z)] > 0)
         for (std::size_t a = 0; a < 3; ++a)
           std::visit(
-              [&](const auto& h) { note(h[a][place(x, y, z)] - plain.exchange(cell)[static_cast<int>(a)]); },
+              [&](const auto& per_strength) {
+                const std::ptrdiff_t at = place(x, y, z);
+                note(arrays.strength[at] * per_strength[a][at] - plain.exchange(cell)[static_cast<int>(a)]);
+              },
               arrays.exchange);
     });
     fast.for_each_point([&](const Index3& cell, const FluidPoint& point, double solid_fraction) {

@@ -61,6 +61,9 @@ template <class T>
   }
 }
 
+/// A strength below this counts as this where it divides. Strengths are multiples of 2^-22, or nothing.
+inline constexpr float kLeastStrength = 1e-12f;
+
 /// The divisor of SolidWeighting's B. Where the fractions of a cell add up to more than one,
 /// they shrink in proportion.
 template <class T>
@@ -77,8 +80,9 @@ struct PartialForce {
   static constexpr bool kAddsForce = true;
   static constexpr bool kMixes = false;
 
-  /// With h half of what the cell exchanges: h = B (m - rho us), m the momentum with half of the other
-  /// forces.
+  /// The cell exchanges 2 B (m - rho us), m the momentum with half of the other forces; a unit of its
+  /// strength S, 2/D (m - rho us) with D = S/B. One division gives 1/D and 1/S, which turns strength times
+  /// velocity into us.
   template <class T>
   [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
                                            CellPack<T>& cell) {
@@ -86,14 +90,16 @@ struct PartialForce {
     const Pack<T> fraction = load_floats<T>(call.fraction + cells);
     if (!any_positive(fraction)) return;
     const Pack<T> strength = load_floats<T>(call.strength + cells);
-    const Pack<T> factor =
-        call.weighting.numerator / weighting_divisor<T>(call.weighting, fraction, strength);
-    const Pack<T> weight = strength * factor, flow = cell.density * factor;
+    constexpr T least = static_cast<T>(kLeastStrength);
+    const Pack<T> some = strength > least ? strength : broadcast<T>(least);
+    const Pack<T> flow =
+        (T(2) * call.weighting.numerator) / (some * weighting_divisor<T>(call.weighting, fraction, strength));
+    const Pack<T> toward = flow * some, solid_flow = flow * cell.density, half_strength = T(0.5) * strength;
     Pack<T> exchange[3];
     for (int a = 0; a < 3; ++a) {
-      const Pack<T> half = weight * cell.momentum[a] - flow * load_floats<T>(call.solid_momentum[a] + cells);
-      exchange[a] = half + half;
-      cell.force[a] = cell.force[a] - exchange[a];
+      exchange[a] = toward * cell.momentum[a] - solid_flow * load_floats<T>(call.solid_momentum[a] + cells);
+      const Pack<T> half = half_strength * exchange[a];
+      cell.force[a] = cell.force[a] - (half + half);
       cell.momentum[a] = cell.momentum[a] - half;
     }
     store_exchange<T>(call, cells, lanes, exchange);
@@ -194,7 +200,7 @@ struct PartialMixed {
     for (int a = 0; a < 3; ++a) {
       exchange[a] = -mixing.given[a];
       if constexpr (kForced) exchange[a] = exchange[a] + cell.force[a];
-      exchange[a] = mixing.weight * exchange[a];
+      exchange[a] = factor * exchange[a];  // the weight is the strength times this
     }
     store_exchange<T>(call, cells, lanes, exchange);
   }

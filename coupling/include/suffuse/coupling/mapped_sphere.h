@@ -40,4 +40,9 @@ struct MappedSphere {
   int y_begin = 0, y_end = 0, z_begin = 0, z_end = 0;
 };
 
+/// The rows begin <= y < end of a block that a sphere reaches.
+struct SliceRows {
+  int begin, end;
+};
+
 }  // namespace suffuse::coupling

@@ -10,6 +10,7 @@
 namespace suffuse::coupling {
 
 struct SliceList;
+struct SliceNotes;
 
 /// Writes which part of each cell is covered and how fast it moves, for the collision to read; and adds up
 /// afterwards what the cells of each sphere received.
@@ -71,6 +72,7 @@ class SolidMapping {
   void list_slices();
   std::size_t number_of(const lbm::RowBlock& block) const;
   SliceList slices_in(const lbm::RowBlock& block) const;
+  SliceNotes notes();
   void clear_rows(const lbm::RowBlock& block) const;
   template <class Visit>
   void for_each_block(const Visit& visit) const;
@@ -87,8 +89,9 @@ class SolidMapping {
   std::vector<int> order_;        ///< of `mapped_` by y_begin
   std::vector<int> first_slice_;  ///< of each block, in `slices_`; one more at the end
   std::vector<int> slices_;       ///< the spheres that may reach it
-  std::vector<float> entries_;    ///< strengths of the slices of one block, which is
-  std::ptrdiff_t entries_block_ = -1;
+  std::vector<SliceRows> rows_;   ///< rows and strengths of the slices of one block, which is
+  std::vector<float> entries_;
+  std::ptrdiff_t noted_block_ = -1;
   std::vector<LatticeLoad> loads_;
   const float* pore_coefficients_ = nullptr;
   lbm::HeldTerms held_;

@@ -53,8 +53,8 @@ struct HeldTerms {
 };
 HeldTerms held_terms(const PartialSolidSettings& settings, double relaxation_time);
 
-/// Momentum that the fluid handed to the solids of each cell, one array for each component, in the storage
-/// type of the fluid.
+/// Momentum that the fluid handed to the solids of each cell, for each unit of their strength, one array for
+/// each component, in the storage type of the fluid: a solid's share is this times its own strength.
 using ExchangeArrays = std::variant<std::array<const double*, 3>, std::array<const float*, 3>>;
 
 /// The arrays of one rank that solids are written to and the exchange is read from. All pointers are to inner

@@ -1,0 +1,66 @@
+// suffuse-study: what accuracy costs in time, from runs of one script with many settings
+// (docs/analysis/suffuse-study.md).
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <filesystem>
+
+#include "suffuse/analysis/study_file.h"
+#include "suffuse/analysis/study_runner.h"
+#include "suffuse/common/error.h"
+
+namespace {
+
+constexpr const char* kDescription =
+    "What accuracy costs in time: runs a script once for every setting that a study file lists, and leaves a "
+    "table\nand a figure of error against time. docs/analysis/suffuse-study.md describes the file.";
+
+int report(const char* what) {
+  std::fflush(stdout);
+  fmt::print(stderr, "suffuse-study: error: {}\n", what);
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace suffuse::analysis;
+  CLI::App app{kDescription, "suffuse-study"};
+  app.set_version_flag("--version", "suffuse-study " SUFFUSE_VERSION);
+  std::string file;
+  int ranks = 0;
+  StudyRunSettings settings;
+  bool no_figure = false;
+  app.add_option("STUDY", file, "study file (TOML)")->required();
+  app.add_option("--out", settings.out,
+                 "folder for runs and results; runs/NAME of the study file if not given");
+  app.add_option("--ranks", ranks, "MPI ranks of every run, instead of the study's")
+      ->check(CLI::Range(1, 100000));
+  app.add_flag("--dry-run", settings.dry_run, "print the commands, run nothing");
+  app.add_flag("--resume", settings.resume,
+               "keep the runs that have ended in that folder, and do the others");
+  app.add_flag("--retry-failed", settings.retry_failed, "with --resume: do those that failed again");
+  app.add_option("--time", settings.time, "hold errors against wall or core seconds; wall if not given")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, StudyTime>{{"wall", StudyTime::wall}, {"core", StudyTime::core}}));
+  app.add_flag("--no-figure", no_figure, "leave the figure out");
+  app.add_option("--program", settings.program,
+                 "the suffuse to run; the one beside this program if not given");
+  try {
+    app.parse(argc, argv);
+    settings.figure = !no_figure;
+    Study study = read_study(file);
+    if (ranks > 0) study.ranks = ranks;
+    if (settings.out.empty()) settings.out = "runs/" + std::filesystem::path(file).stem().string();
+    return run_study(study, settings);
+  } catch (const CLI::ParseError& problem) {
+    if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
+    return report(fmt::format("{}; see --help", problem.what()).c_str());
+  } catch (const suffuse::UserError& problem) {
+    return report(problem.what());
+  } catch (const std::exception& failure) {
+    report(fmt::format("internal: {}", failure.what()).c_str());
+    return 2;
+  }
+}

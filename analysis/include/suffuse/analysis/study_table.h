@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suffuse/analysis/study_cases.h"
+#include "suffuse/analysis/study_record.h"
+#include "suffuse/analysis/trade_off.h"
+
+namespace suffuse::analysis {
+
+/// Which seconds an error is held against.
+enum class StudyTime { wall, core };
+
+/// A run of a study that has ended.
+struct StudyRow {
+  StudyCase run;
+  RunRecord record;
+  std::vector<std::optional<double>> values;  ///< of the study's quantities, in their order
+  std::vector<std::optional<double>> errors;  ///< relative, with their signs
+  std::optional<double> error;  ///< the largest one, none counted as less than its reference is uncertain
+  bool on_front = false;
+};
+
+/// The rows that have ended, with errors and Pareto's front.
+class StudyTable {
+ public:
+  StudyTable(const Study& study, StudyTime time) : study_(study), time_(time) {}
+
+  /// Takes the row up and works out the errors that it changes.
+  void add(StudyRow row);
+  std::size_t size() const { return rows_.size(); }
+  const std::vector<StudyRow>& rows() const { return rows_; }
+  bool none_finished() const;
+
+  /// For the screen: runs by their time, the front marked, those that failed with their reasons below.
+  std::string text() const;
+  /// "fastest within 3 %: resolution=5, 12.3 s (error 1.6 %)"; where several quantities have a reference, a
+  /// line for each of them alone behind it.
+  std::string verdict() const;
+  /// A row a run: variables, status, seconds, quantities, references, errors, front.
+  void write_csv(const std::string& path) const;
+
+ private:
+  double seconds(const StudyRow& row) const;
+  /// By the largest error, or by that of one quantity.
+  std::vector<TradeOff> trade_offs(std::optional<std::size_t> quantity = std::nullopt) const;
+  std::string sentence(const std::vector<TradeOff>& runs) const;
+  void work_out_errors();
+  /// No smaller than the reference is uncertain.
+  std::optional<double> counted_error(const StudyRow& row, std::size_t quantity) const;
+  std::vector<std::size_t> by_time() const;
+  std::ptrdiff_t judged() const;  ///< quantities with a reference
+  std::string finished_text() const;
+  std::string failed_text() const;
+
+  const Study& study_;
+  StudyTime time_;
+  std::vector<StudyRow> rows_;
+};
+
+}  // namespace suffuse::analysis

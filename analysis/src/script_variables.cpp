@@ -1,0 +1,118 @@
+#include "suffuse/analysis/script_variables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <sstream>
+
+#include "suffuse/common/error.h"
+
+namespace suffuse::analysis {
+namespace {
+
+namespace files = std::filesystem;
+
+/// Styles that leave a variable alone that is there already, as -var makes it.
+constexpr const char* kKept[] = {"index", "loop", "world", "universe", "uloop"};
+
+bool contains(const std::vector<std::string>& list, const std::string& text) {
+  return std::find(list.begin(), list.end(), text) != list.end();
+}
+
+void add(std::vector<std::string>& list, const std::string& text) {
+  if (!contains(list, text)) list.push_back(text);
+}
+
+/// A file's name with variables in it as a pattern: each stands for any text.
+std::regex pattern_of(const std::string& name) {
+  static const std::regex variable(R"(\$\{[^}]*\}|\$[A-Za-z])");
+  std::string pattern;
+  std::sregex_token_iterator part(name.begin(), name.end(), variable, -1), end;
+  for (bool first = true; part != end; ++part, first = false) {
+    if (!first) pattern += ".*";
+    for (const char c : part->str())
+      pattern += std::isalnum(static_cast<unsigned char>(c)) ? std::string(1, c) : std::string("\\") + c;
+  }
+  if (name.ends_with('}')) pattern += ".*";
+  return std::regex(pattern);
+}
+
+}  // namespace
+
+std::string fingerprint_of(const std::string& text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return fmt::format("{:016x}", hash);
+}
+
+ScriptVariables::ScriptVariables(const std::string& script, const std::string& who)
+    : script_(script), folder_(files::path(script).parent_path().string()) {
+  read(script);
+  if (files_.empty())
+    throw_user_error({who, "script", script, "be readable", "check the path and the permissions"});
+}
+
+void ScriptVariables::read(const std::string& file) {
+  const std::string path = files::path(file).lexically_normal().string();
+  std::ifstream stream(path);
+  if (!stream || contains(files_, path)) return;
+  files_.push_back(path);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  text_ += text + '\n';
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    note_definition(line.substr(0, line.find('#')));
+    std::istringstream words(line);
+    std::string command, name;
+    if (words >> command >> name && command == "include") include(name);
+  }
+}
+
+void ScriptVariables::note_definition(const std::string& line) {
+  static const std::regex definition(R"(\bvariable\s+(\w+)\s+(\w+))");
+  std::smatch found;
+  if (!std::regex_search(line, found, definition)) return;
+  const bool kept = std::find(std::begin(kKept), std::end(kKept), found[2].str()) != std::end(kKept);
+  if (kept || found[2] != "delete") add(kept ? settable_ : set_by_script_, found[1]);
+}
+
+void ScriptVariables::include(const std::string& words) {
+  std::string name = words;
+  if (const std::size_t at = name.find("${script_folder}"); at != name.npos) name.replace(at, 16, folder_);
+  const files::path path(name);
+  const files::path folder = path.parent_path();
+  if (!files::is_directory(folder)) return;  // made during the run
+  std::vector<std::string> fitting;
+  const std::regex pattern = pattern_of(path.filename().string());
+  for (const auto& entry : files::directory_iterator(folder))
+    if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), pattern))
+      fitting.push_back(entry.path().string());
+  std::sort(fitting.begin(), fitting.end());
+  for (const std::string& file : fitting) read(file);
+}
+
+void ScriptVariables::require(const std::string& name, const std::string& who) const {
+  if (contains(settable_, name)) return;
+  const std::string script = files::path(script_).filename().string();
+  if (contains(set_by_script_, name))
+    throw_user_error(
+        {who, "variable", name, "be one that -var can set",
+         fmt::format("{} sets it itself; make that line `variable {} index VALUE`", script, name)});
+  const bool used = text_.find("${" + name + "}") != text_.npos ||
+                    std::regex_search(text_, std::regex("\\bv_" + name + "\\b"));
+  if (!used)
+    throw_user_error({who, "variable", name, "be used by " + script,
+                      fmt::format("it has {}", fmt::join(settable_, ", "))});
+}
+
+std::string ScriptVariables::fingerprint() const {
+  return fingerprint_of(text_);
+}
+
+}  // namespace suffuse::analysis

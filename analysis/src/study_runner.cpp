@@ -1,0 +1,288 @@
+#include "suffuse/analysis/study_runner.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/figure_script.h"
+#include "suffuse/analysis/script_variables.h"
+#include "suffuse/analysis/timed_process.h"
+#include "suffuse/common/count_text.h"
+#include "suffuse/common/error.h"
+#include "suffuse/common/progress.h"
+
+namespace suffuse::analysis {
+namespace {
+
+namespace files = std::filesystem;
+
+constexpr const char* kWho = "suffuse-study";
+constexpr const char* kLog = "log.txt";
+
+files::path own_folder() {
+  std::error_code ignored;  // without /proc, PATH must do
+  return files::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+std::string find_program(const std::string& given) {
+  if (!given.empty()) {
+    if (access(given.c_str(), X_OK) != 0 || files::is_directory(given))
+      throw_user_error({kWho, "--program", given, "be a program that can be run", ""});
+    return files::absolute(given).string();
+  }
+  const files::path beside = own_folder() / "suffuse";
+  return files::exists(beside) ? beside.string() : "suffuse";
+}
+
+/// scripts/mpirun of the source tree above the program, or Open MPI's own.
+std::vector<std::string> launcher(int ranks) {
+  if (ranks == 1) return {};
+  for (files::path above = own_folder(); above.has_relative_path(); above = above.parent_path())
+    if (files::is_regular_file(above / "scripts/mpirun"))
+      return {(above / "scripts/mpirun").string(), std::to_string(ranks)};
+  return {"mpirun", "-np", std::to_string(ranks)};
+}
+
+/// A text as a shell takes it.
+std::string quoted(const std::string& word) {
+  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._+-/=,:") ==
+      word.npos)
+    return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + '\'';
+}
+
+class Runner {
+ public:
+  Runner(const Study& study, const StudyRunSettings& settings)
+      : study_(study), settings_(settings), cases_(study_cases(study)), table_(study, settings.time) {
+    out_ = files::absolute(settings.out).lexically_normal();
+    const std::string program = find_program(settings.program);
+    first_words_ = launcher(study.ranks);
+    first_words_.push_back(program);
+    check_variables();
+  }
+
+  int run() {
+    if (settings_.dry_run) return list_commands();
+    make_folders();
+    const InterruptGuard guard;
+    prepare();
+    for (std::size_t k = 0; k < cases_.size() && InterruptGuard::signal() == 0; ++k) run_case(k);
+    const int signal = InterruptGuard::signal();
+    report();
+    if (signal == 0 && table_.none_finished())
+      throw_user_error(
+          {study_.file, "runs", "all failed", "finish, one at least", "the reasons stand above"});
+    if (signal == 0) return 0;
+    fmt::print("interrupted: {} of {} are done; --resume goes on\n", table_.size(),
+               count_text(static_cast<std::int64_t>(cases_.size()), "run"));
+    return 128 + signal;
+  }
+
+ private:
+  void check_variables() {
+    const ScriptVariables variables(study_.script, study_.file);
+    for (const std::string& name : swept_names(study_)) variables.require(name, study_.file);
+    for (const auto& [name, value] : study_.fixed) variables.require(name, study_.file);
+    script_ = variables.fingerprint();
+    if (!study_.preparation) return;
+    const ScriptVariables before(study_.preparation->script, study_.file);
+    for (const auto& [name, value] : study_.preparation->variables)
+      before.require(name, study_.file + ", [prepare]");
+    prepared_ = before.fingerprint() + variables_text(study_.preparation->variables);
+  }
+
+  std::string folder_of(const StudyCase& run) const { return (out_ / "runs" / run.name).string(); }
+
+  std::vector<std::string> command(const std::string& script, const VariableValues& variables) const {
+    std::vector<std::string> words = first_words_;
+    words.insert(words.end(), {"-in", script});
+    for (const auto& [name, value] : variables) {
+      std::string text = value;
+      const std::string folder = (out_ / "prepare").string();
+      for (std::size_t at = 0; (at = text.find("{prepare}", at)) != text.npos; at += folder.size())
+        text.replace(at, 9, folder);
+      words.insert(words.end(), {"-var", name, text});
+    }
+    return words;
+  }
+
+  VariableValues variables_of(const StudyCase& run) const {
+    VariableValues variables = study_.fixed;
+    variables.insert(variables.end(), run.swept.begin(), run.swept.end());
+    return variables;
+  }
+
+  std::string settings_of(const VariableValues& variables, const std::string& script) const {
+    return fingerprint_of(
+        fmt::format("{}\n{}\n{}\n{}", study_.ranks, variables_text(variables), script, prepared_));
+  }
+
+  std::optional<RunRecord> done_before(const std::string& folder, const std::string& settings) const {
+    if (!settings_.resume) return std::nullopt;
+    std::optional<RunRecord> record = read_record(folder, settings);
+    if (record && settings_.retry_failed && record->status != RunRecord::Status::finished) record.reset();
+    return record;
+  }
+
+  int list_commands() {
+    if (study_.preparation)
+      print_command((out_ / "prepare").string(),
+                    command(study_.preparation->script, study_.preparation->variables));
+    std::size_t done = 0;
+    for (const StudyCase& run : cases_) {
+      const std::optional<RunRecord> record =
+          done_before(folder_of(run), settings_of(variables_of(run), script_));
+      if (record) {
+        ++done;
+        fmt::print("# {} in {}:\n# ", to_string(record->status), duration_text(record->wall));
+      }
+      print_command(folder_of(run), command(study_.script, variables_of(run)));
+    }
+    fmt::print("# {}, {} of them done\n", count_text(static_cast<std::int64_t>(cases_.size()), "run"), done);
+    return 0;
+  }
+
+  static void print_command(const std::string& folder, const std::vector<std::string>& words) {
+    fmt::print("mkdir -p {0} && cd {0} &&", quoted(folder));
+    for (const std::string& word : words) fmt::print(" {}", quoted(word));
+    fmt::print("\n");
+  }
+
+  void make_folders() {
+    if (!settings_.resume && files::exists(out_ / "runs") && !files::is_empty(out_ / "runs"))
+      throw_user_error(
+          {kWho, "--out", settings_.out, "have no runs yet", "give --resume to go on, or another folder"});
+    std::error_code problem;
+    files::create_directories(out_ / "runs", problem);
+    if (problem)
+      throw_user_error({kWho, "--out", settings_.out, "be a folder that can be made", problem.message()});
+  }
+
+  /// Runs a script in an empty folder and keeps its record; nothing where it was interrupted.
+  std::optional<RunRecord> execute(const std::string& folder, const std::vector<std::string>& words,
+                                   const std::string& settings) {
+    files::remove_all(folder);
+    files::create_directories(folder);
+    const ProcessEnd end = run_timed(words, folder, kLog, study_.time_limit);
+    if (end.how == ProcessEnd::How::interrupted) return std::nullopt;
+    RunRecord record = record_of(end, (files::path(folder) / kLog).string(), study_.time_limit, settings);
+    write_record(folder, record);
+    return record;
+  }
+
+  void prepare() {
+    if (!study_.preparation) return;
+    const std::string folder = (out_ / "prepare").string();
+    const std::string settings = settings_of(study_.preparation->variables, prepared_);
+    std::optional<RunRecord> record = done_before(folder, settings);
+    if (record) return;
+    fmt::print("preparing: ");
+    std::fflush(stdout);
+    record = execute(folder, command(study_.preparation->script, study_.preparation->variables), settings);
+    if (!record) return;  // interrupted
+    fmt::print("{}\n", duration_text(record->wall));
+    if (record->status != RunRecord::Status::finished)
+      throw_user_error(
+          {study_.file, "[prepare]", record->reason, "finish", "its log is " + folder + "/" + kLog});
+  }
+
+  void run_case(std::size_t number) {
+    const StudyCase& run = cases_[number];
+    const std::string folder = folder_of(run);
+    const std::string settings = settings_of(variables_of(run), script_);
+    std::optional<RunRecord> record = done_before(folder, settings);
+    const bool is_new = !record;
+    if (is_new) {
+      fmt::print("[{}/{}] {}: ", number + 1, cases_.size(), variables_text(run.swept));
+      std::fflush(stdout);
+      record = execute(folder, command(study_.script, variables_of(run)), settings);
+      if (!record) {
+        fmt::print("interrupted\n");
+        return;
+      }
+    }
+    StudyRow row{run, *record, {}, {}, {}, false};
+    if (record->status == RunRecord::Status::finished) read_values(folder, row);
+    table_.add(std::move(row));
+    table_.write_csv((out_ / "study.csv").string());
+    if (is_new) tell(table_.rows().back());
+  }
+
+  /// A quantity that a run lacks is the study's mistake, unless others have it: then this run went wrong.
+  void read_values(const std::string& folder, StudyRow& row) {
+    for (const StudyQuantity& quantity : study_.quantities) {
+      CsvCell cell = quantity.cell;
+      cell.file = (files::path(folder) / cell.file).string();
+      std::string problem;
+      try {
+        const double value = read_csv_cell(cell, study_.file + ": " + quantity.name);
+        if (std::isfinite(value)) {
+          row.values.emplace_back(value);
+          continue;
+        }
+        problem = fmt::format("{} is {}", quantity.name, value);
+      } catch (const UserError& missing) {
+        if (!has_values_) throw;
+        problem = missing.what();
+      }
+      row.record.status = RunRecord::Status::failed;
+      row.record.reason = problem;
+      row.values.clear();
+      return;
+    }
+    has_values_ = true;
+  }
+
+  static void tell(const StudyRow& row) {
+    fmt::print("{}", duration_text(row.record.wall));
+    if (row.record.status != RunRecord::Status::finished)
+      fmt::print(", {}: {}", to_string(row.record.status), row.record.reason);
+    else if (row.error && !row.run.is_reference)
+      fmt::print(", error {:.2g} %", 100 * *row.error);
+    fmt::print("\n");
+    std::fflush(stdout);
+  }
+
+  void report() {
+    if (table_.size() == 0) return;
+    fmt::print("\n{}\n{}\n{}\n\n{}\n", study_.title, table_.text(), table_.verdict(),
+               (out_ / "study.csv").string());
+    std::fflush(stdout);
+    bool has_error = false;
+    for (const StudyRow& row : table_.rows()) has_error = has_error || (row.error && !row.run.is_reference);
+    if (!settings_.figure || !has_error) return;
+    std::string names;
+    for (const std::string& name : swept_names(study_)) names += (names.empty() ? "" : ",") + name;
+    const std::string figure = (out_ / "study.png").string();
+    make_figure("accuracy_and_time.py",
+                {(out_ / "study.csv").string(), "--variables", names, "--time",
+                 settings_.time == StudyTime::wall ? "wall" : "core", "--within",
+                 fmt::format("{}", study_.within), "--title", study_.title, "--output", figure},
+                kWho);
+    fmt::print("{}\n", figure);
+  }
+
+  const Study& study_;
+  const StudyRunSettings& settings_;
+  std::vector<StudyCase> cases_;
+  StudyTable table_;
+  files::path out_;
+  std::vector<std::string> first_words_;
+  std::string script_, prepared_;  ///< fingerprints
+  bool has_values_ = false;
+};
+
+}  // namespace
+
+int run_study(const Study& study, const StudyRunSettings& settings) {
+  return Runner(study, settings).run();
+}
+
+}  // namespace suffuse::analysis

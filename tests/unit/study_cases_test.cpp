@@ -1,0 +1,238 @@
+// What suffuse-study works out without running anything: its runs, Pareto's front, the variables of a script.
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/script_variables.h"
+#include "suffuse/analysis/study_cases.h"
+#include "suffuse/analysis/study_record.h"
+#include "suffuse/analysis/study_table.h"
+#include "suffuse/analysis/trade_off.h"
+#include "suffuse/common/error.h"
+
+using namespace suffuse;
+using namespace suffuse::analysis;
+
+namespace {
+
+namespace files = std::filesystem;
+
+/// A folder that is gone again at the end.
+struct Scratch {
+  files::path path = files::temp_directory_path() / ("suffuse-study-" + std::to_string(getpid()));
+
+  Scratch() { files::create_directories(path); }
+  ~Scratch() { files::remove_all(path); }
+  std::string write(const std::string& name, const std::string& text) const {
+    files::create_directories((path / name).parent_path());
+    std::ofstream(path / name) << text;
+    return (path / name).string();
+  }
+};
+
+std::vector<std::string> names_of(const std::vector<StudyCase>& cases) {
+  std::vector<std::string> names;
+  for (const StudyCase& run : cases) names.push_back(run.name);
+  return names;
+}
+
+StudyRow row(const std::string& value, double wall, double core, double result) {
+  StudyRow made;
+  made.run.swept = {{"n", value}};
+  made.record.status = RunRecord::Status::finished;
+  made.record.wall = wall;
+  made.record.core = core;
+  made.values = {result};
+  return made;
+}
+
+std::string message_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const UserError& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a grid has every combination, the last variable fastest") {
+  Study study;
+  study.sweeps = {{{"a", {"1", "2"}}, {"b", {"x", "y", "z"}}}};
+  CHECK(names_of(study_cases(study)) ==
+        std::vector<std::string>{"a=1,b=x", "a=1,b=y", "a=1,b=z", "a=2,b=x", "a=2,b=y", "a=2,b=z"});
+}
+
+TEST_CASE("one at a time has the base and each value around it, no run twice") {
+  Study study;
+  study.one_at_a_time = true;
+  study.base = {{"a", "1"}, {"b", "x"}};
+  study.sweeps = {{{"a", {"1", "2"}}, {"b", {"y"}}}};
+  study.finest = {{"a", "9"}, {"b", "x"}};
+  const std::vector<StudyCase> cases = study_cases(study);
+  CHECK(names_of(cases) == std::vector<std::string>{"a=1,b=x", "a=2,b=x", "a=1,b=y", "a=9,b=x"});
+  CHECK(cases.back().is_reference);
+  CHECK_FALSE(cases.front().is_reference);
+}
+
+TEST_CASE("several grids fill up what they leave out from the base, and need one for it") {
+  Study study;
+  study.base = {{"b", "x"}};
+  study.sweeps = {{{"a", {"1", "2"}}}, {{"a", {"2"}}, {"b", {"x", "y"}}}};
+  CHECK(names_of(study_cases(study)) == std::vector<std::string>{"a=1,b=x", "a=2,b=x", "a=2,b=y"});
+  study.base.clear();
+  CHECK(message_of([&] { study_cases(study); }).find("[base] b") != std::string::npos);
+}
+
+TEST_CASE("values that a folder's name cannot hold still have folders of their own") {
+  Study study;
+  study.sweeps = {{{"fraction", {"subcells 5", "subcells/5", std::string(300, 'n')}}}};
+  const std::vector<std::string> names = names_of(study_cases(study));
+  REQUIRE(names.size() == 3);
+  CHECK(names[0] != names[1]);
+  for (const std::string& name : names) {
+    CHECK(name.find_first_of(" /") == std::string::npos);
+    CHECK(name.size() < 200);
+  }
+}
+
+TEST_CASE("Pareto's front holds the runs that no other one beats, by hand") {
+  //                                  front        front      beaten by 0  front (equal)  front      no error
+  const std::vector<TradeOff> runs{{1, 0.10}, {2, 0.05}, {1.5, 0.10},
+                                   {2, 0.05}, {8, 0.01}, {0.1, std::nullopt}};
+  CHECK(pareto_front(runs) == std::vector<bool>{true, true, false, true, true, false});
+  CHECK(fastest_within(runs, 0.05) == 1);
+  CHECK(fastest_within(runs, 0.1) == 0);
+  CHECK_FALSE(fastest_within(runs, 0.001));
+  CHECK(most_accurate(runs) == 4);
+  CHECK_FALSE(most_accurate({{1, std::nullopt}}));
+  CHECK(relative_error(0.9, 1.0) == Approx(-0.1));
+}
+
+TEST_CASE("a table takes the largest error, no smaller than the reference is uncertain, and signs it") {
+  Study study;
+  study.sweeps = {{{"n", {"1", "2", "3"}}}};
+  study.quantities.push_back({"drag", {}, 2.0, false, "by hand", 0.02});
+  StudyTable table(study, StudyTime::wall);
+  table.add(row("1", 1, 9, 1.8));    // -10 %
+  table.add(row("2", 4, 4, 2.002));  // 0.1 %: counts as 2 %
+  table.add(row("3", 9, 1, 2.0));    // 0: counts as 2 %, and is slower
+  CHECK(table.rows()[0].errors[0] == Approx(-0.1));
+  CHECK(table.rows()[1].error == Approx(0.02));
+  CHECK(table.rows()[0].on_front);
+  CHECK(table.rows()[1].on_front);
+  CHECK_FALSE(table.rows()[2].on_front);
+  CHECK(table.verdict() == "fastest within 3 %: n=2, 4 s (error 2 %)");
+  StudyTable by_core(study, StudyTime::core);
+  for (const StudyRow& one : table.rows()) by_core.add(one);
+  CHECK(by_core.verdict() == "fastest within 3 %: n=3, 1 s (error 2 %)");
+  study.quantities.push_back({"lift", {}, 1.0, false, "by hand", 0});
+  StudyTable two(study, StudyTime::wall);
+  for (StudyRow one : table.rows()) {
+    one.values.push_back(one.record.wall == 9 ? 1 : 2);
+    two.add(one);
+  }
+  CHECK(two.verdict() ==
+        "fastest within 3 %: n=3, 9 s (error 2 %)\n  drag alone: fastest within 3 %: n=2, 4 s (error 2 %)\n"
+        "  lift alone: fastest within 3 %: n=3, 9 s (error 0 %)");
+  study.quantities.pop_back();
+  study.within = 0.001;
+  CHECK(table.verdict().find("no run is within 0.1 %; the most accurate: n=2") == 0);
+}
+
+TEST_CASE("the finest run is the reference, and takes no part") {
+  Study study;
+  study.sweeps = {{{"n", {"1", "2"}}}};
+  study.finest = {{"n", "2"}};
+  study.quantities.push_back({"drag", {}, std::nullopt, true, "", 0});
+  StudyTable table(study, StudyTime::wall);
+  table.add(row("1", 1, 1, 1.1));
+  CHECK_FALSE(table.rows()[0].error);  // not known yet
+  StudyRow finest = row("2", 10, 10, 1.0);
+  finest.run.is_reference = true;
+  table.add(finest);
+  CHECK(table.rows()[0].error == Approx(0.1));
+  CHECK(table.rows()[0].on_front);
+  CHECK_FALSE(table.rows()[1].on_front);
+}
+
+TEST_CASE("a script's variables: those that -var can set, through its includes") {
+  const Scratch scratch;
+  const std::string script =
+      scratch.write("in.scene",
+                    "variable case index A B\nvariable d equal 1e-3*${factor}\n"
+                    "include ${script_folder}/case_${case}.inc\nvariable twice equal 2*v_d\n"
+                    "include ${output}/made_by_the_run.inc\n");
+  scratch.write("case_A.inc", "variable tau index 0.6\n");
+  scratch.write("case_B.inc", "variable speed index 1\n");
+  scratch.write("other.inc", "variable unseen index 1\n");
+  const ScriptVariables variables(script, "study.toml");
+  for (const char* name : {"case", "tau", "speed", "factor", "output"})
+    CHECK_NOTHROW(variables.require(name, "x"));
+  CHECK(message_of([&] {
+          variables.require("unseen", "x");
+        }).find("used by in.scene; it has case, tau, speed") != std::string::npos);
+  CHECK(message_of([&] { variables.require("d", "x"); }).find("`variable d index VALUE`") !=
+        std::string::npos);
+  const std::string before = variables.fingerprint();
+  scratch.write("case_B.inc", "variable speed index 2\n");
+  CHECK(ScriptVariables(script, "x").fingerprint() != before);
+  CHECK(message_of([&] { ScriptVariables((scratch.path / "in.none").string(), "x"); }) != "");
+}
+
+TEST_CASE("numbers are found in tables of results and in series, with commas in quotes") {
+  const Scratch scratch;
+  const std::string results = scratch.write(
+      "r.csv", "# made\ncase,quantity,value,source\nA,k,1.5,\"a, b\"\nB,k,2.5,\"say \"\"x\"\"\"\n");
+  CHECK(read_csv_cell({results, "value", {{"case", "B"}, {"quantity", "k"}}, {}}, "x") == 2.5);
+  CHECK(csv_cells("A,\"a, b\",\"say \"\"x\"\"\"") == std::vector<std::string>{"A", "a, b", "say \"x\""});
+  CHECK(csv_cells(csv_text("a, \"b\"")) == std::vector<std::string>{"a, \"b\""});
+  const std::string series = scratch.write("s.csv", "t,v\n0,3\n1,-1\n2,4\n");
+  using Take = CsvCell::Take;
+  const std::pair<Take, double> taken[] = {
+      {Take::last, 4}, {Take::first, 3}, {Take::largest, 4}, {Take::smallest, -1}, {Take::mean, 2}};
+  for (const auto& [take, value] : taken) CHECK(read_csv_cell({series, "v", {}, take}, "x") == value);
+  CHECK(message_of([&] {
+          read_csv_cell({series, "w", {}, {}}, "x");
+        }).find("no column w, must have it; it has t, v") != std::string::npos);
+  CHECK(message_of([&] {
+          read_csv_cell({results, "value", {{"quantity", "m"}}, {}}, "x");
+        }).find("its quantity are k") != std::string::npos);
+  CHECK(message_of([&] {
+          read_csv_cell({results, "case", {{"quantity", "k"}}, {}}, "x");
+        }).find("must be a number") != std::string::npos);
+}
+
+TEST_CASE("a record is taken up again with the same settings only, and a failure has the log's last error") {
+  const Scratch scratch;
+  RunRecord record;
+  record.status = RunRecord::Status::too_long;
+  record.reason = "stopped, \"after\" 3 s";
+  record.settings = "abc";
+  record.wall = 3.25;
+  write_record(scratch.path.string(), record);
+  const std::optional<RunRecord> read = read_record(scratch.path.string(), "abc");
+  REQUIRE(read);
+  CHECK(read->status == RunRecord::Status::too_long);
+  CHECK(read->reason == record.reason);
+  CHECK(read->wall == 3.25);
+  CHECK_FALSE(read_record(scratch.path.string(), "abd"));
+  scratch.write("run.json", "{\"settings\": \"abc\"");
+  CHECK_FALSE(read_record(scratch.path.string(), "abc"));
+
+  const std::string log = scratch.write(
+      "log.txt", "suffuse: error: first\n 1 2 3\nsuffuse: error: lbm run: Mach 0.4\nmpirun: lost\n");
+  ProcessEnd end;
+  end.code = 1;
+  CHECK(record_of(end, log, 0, "s").reason == "lbm run: Mach 0.4");
+  CHECK(last_error_in(scratch.write("other.txt", "ERROR: Lost atoms (thermo.cpp:1)\n")) ==
+        "Lost atoms (thermo.cpp:1)");
+  end.how = ProcessEnd::How::by_signal;
+  end.code = 11;
+  CHECK(record_of(end, scratch.write("empty.txt", ""), 0, "s").reason.find("signal 11") != std::string::npos);
+}
