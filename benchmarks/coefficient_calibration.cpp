@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
               collision = "trt", law;
   DragRun run;
   bool header = true;
-  double speed = 0;
+  double speed = 0, flow = 0.002;
   app.add_option("--packing", packings, "comma-separated, see the top of this program's source");
   app.add_option("--diameter", diameters, "Sauter, in cells");
   app.add_option("--coefficient", coefficients, "numbers or auto");
@@ -67,11 +67,13 @@ int main(int argc, char** argv) {
                  "force, sc1, sc2, sc3; interpolated or halfway: link-wise, another method");
   app.add_option("--weighting", weighting, "fraction, noble_torczynski, viscosity_independent");
   app.add_option("--fraction", fraction, "exact, linear, subcells");
-  app.add_option("--collision", collision, "trt, bgk");
+  app.add_option("--collision", collision, "trt, trt_comoving, bgk");
+  app.add_option("--magic", run.magic, "of trt");
   app.add_option("--law", law, "constant,single,crowded,narrow of the automatic coefficient");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
   app.add_flag("--through", run.through, "flow along z instead of x");
   app.add_option("--speed", speed, "moves packing and fluid along x, cells a step: another set of columns");
+  app.add_option("--flow", flow, "with --speed: superficial velocity past the packing, cells a step");
   app.add_flag("--single", run.single, "single precision");
   app.add_flag("--header,!--no-header", header, "first row with names");
   CLI11_PARSE(app, argc, argv);
@@ -86,7 +88,8 @@ int main(int argc, char** argv) {
     const std::vector<double> terms = listed(law, read_number);
     run.law = CoefficientLaw{terms.at(0), terms.at(1), terms.at(2), terms.at(3)};
   }
-  if (collision == "bgk") run.collision = lbm::CollisionOperator::bgk;
+  for (const auto c : {lbm::CollisionOperator::bgk, lbm::CollisionOperator::trt_comoving})
+    if (collision == lbm::name_of(c)) run.collision = c;
   if (header && speed > 0)
     std::printf(
         "packing,diameter_cells,relaxation_time,operator,weighting,collision,fraction,coefficient,speed,"
@@ -105,7 +108,7 @@ int main(int argc, char** argv) {
             run.offset = offset;
             run.coefficient = k;
             if (speed > 0) {
-              const MovingResult m = moving_drag_of(packing, diameter, run, speed, 0.002);
+              const MovingResult m = moving_drag_of(packing, diameter, run, speed, flow);
               std::printf("%s,%g,%g,%s,%s,%s,%s,%s,%g,%d,%.5f,%.5f,%.4f\n", name.c_str(), diameter, tau,
                           solid_operator.c_str(), weighting.c_str(), collision.c_str(), fraction.c_str(),
                           k > 0 ? std::to_string(k).c_str() : "auto", speed, m.stable ? 1 : 0, m.held, m.drag,

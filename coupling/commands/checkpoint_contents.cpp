@@ -49,7 +49,7 @@ std::vector<Setting> settings_of(const CoupledSimulation& simulation) {
   const lbm::CollisionSettings& collision = simulation.fluid().settings().collision;
   const SolidSettings& solids = simulation.settings().solids;
   const EffectSettings& effects = simulation.settings().effects;
-  const bool two_times = collision.collision_operator == lbm::CollisionOperator::trt;
+  const bool two_times = lbm::has_magic(collision.collision_operator);
   std::vector<Setting> settings{
       {"fluid", "density", number(units.density())},
       {"fluid", "viscosity", number(units.viscosity_si())},

@@ -164,11 +164,12 @@ void read_collision(ArgumentReader& reader, LbmSettings& settings) {
       choose<lbm::CollisionOperator>(reader, "operator",
                                      {{"bgk", lbm::CollisionOperator::bgk},
                                       {"trt", lbm::CollisionOperator::trt},
+                                      {"trt_comoving", lbm::CollisionOperator::trt_comoving},
                                       {"central_moments", lbm::CollisionOperator::central_moments}});
   while (!reader.done()) {
     if (reader.accept("magic")) {
-      if (collision.collision_operator != lbm::CollisionOperator::trt)
-        throw_user_error({reader.who(), "magic", "given", "go with trt",
+      if (!lbm::has_magic(collision.collision_operator))
+        throw_user_error({reader.who(), "magic", "given", "go with trt or trt_comoving",
                           "drop it, or write `lbm collision trt magic ...`"});
       collision.magic = reader.positive("magic");
     } else if (reader.accept("incompressible"))

@@ -26,6 +26,8 @@ std::string name_of(CollisionOperator collision_operator) {
       return "bgk";
     case CollisionOperator::trt:
       return "trt";
+    case CollisionOperator::trt_comoving:
+      return "trt_comoving";
     case CollisionOperator::central_moments:
       return "central_moments";
   }

@@ -138,6 +138,7 @@ void read_lattice(const std::string& file, const toml::table& root, FlowCase& fl
       choose<CollisionOperator>(lattice, "collision", lattice.text("collision").value_or("trt"),
                                 {{"bgk", CollisionOperator::bgk},
                                  {"trt", CollisionOperator::trt},
+                                 {"trt_comoving", CollisionOperator::trt_comoving},
                                  {"central_moments", CollisionOperator::central_moments}});
   flow.collision.magic = lattice.number("magic").value_or(flow.collision.magic);
   flow.collision.smagorinsky = lattice.number("smagorinsky").value_or(0);

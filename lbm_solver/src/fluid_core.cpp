@@ -11,6 +11,17 @@ namespace {
 /// Cells ahead that arrays of partly covered cells are fetched: two cache lines of floats.
 constexpr std::ptrdiff_t kSolidsAhead = 128;
 
+OperatorFamily family_of(CollisionOperator collision_operator) {
+  switch (collision_operator) {
+    case CollisionOperator::trt_comoving:
+      return OperatorFamily::comoving_rates;
+    case CollisionOperator::central_moments:
+      return OperatorFamily::central_moments;
+    default:
+      return OperatorFamily::two_rates;
+  }
+}
+
 }  // namespace
 
 FluidCoreBase::FluidCoreBase(const FluidSettings& s, const Decomposition& d)
@@ -178,8 +189,8 @@ PartialSolidArrays FluidCore<T>::use_partial_solids(const PartialSolidSettings& 
 template <class T>
 void FluidCore<T>::step(RowVisitor* visitor) {
   const CollisionSettings& c = settings.collision;
-  const KernelVariant variant{c.collision_operator == CollisionOperator::central_moments, !force.isZero(0),
-                              c.smagorinsky > 0, solid_kind()};
+  const KernelVariant variant{family_of(c.collision_operator), !force.isZero(0), c.smagorinsky > 0,
+                              solid_kind()};
   sweep(kernel_for<T>(instruction_set, variant), visitor);
   const FaceContext context{force, c.incompressible};
   // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and

@@ -65,16 +65,59 @@ constexpr int kPowers[kDirections][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0,
                                          {1, 2, 0}, {1, 0, 2}, {2, 1, 0}, {0, 1, 2}, {2, 0, 1},
                                          {0, 2, 1}, {2, 2, 0}, {2, 0, 2}, {0, 2, 2}};
 
-CellPopulations central_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
-                                const Vec3& u, const Vec3& force) {
-  using Matrix = Eigen::Matrix<double, kDirections, kDirections>;
-  using Vector = Eigen::Matrix<double, kDirections, 1>;
+using Matrix = Eigen::Matrix<double, kDirections, kDirections>;
+using Vector = Eigen::Matrix<double, kDirections, 1>;
+
+/// From populations to moments about a velocity.
+Matrix moments_about(const Vec3& u) {
   Matrix transform;
   for (int m = 0; m < kDirections; ++m)
     for (int i = 0; i < kDirections; ++i) {
       transform(m, i) = 1;
       for (int a = 0; a < 3; ++a) transform(m, i) *= std::pow(kVelocity[i][a] - u[a], kPowers[m][a]);
     }
+  return transform;
+}
+
+/// Even moments about the velocity relax at the viscosity's rate, odd ones at TRT's other one.
+CellPopulations comoving_rates(const CellPopulations& f, const CollisionSettings& settings, double density,
+                               const Vec3& u, const Vec3& force) {
+  // Equilibrium and source of thesis eq 3.25 and Guo, with fourth moments that do not know the third axis.
+  Vector equilibrium_vector, source;
+  Mat3 stress = 0.5 * (u * force.transpose() + force * u.transpose());
+  for (int i = 0; i < kDirections; ++i) {
+    equilibrium_vector[i] = equilibrium(i, density, u);
+    source[i] = guo(i, u, force);
+    stress += (f[static_cast<std::size_t>(i)] - equilibrium_vector[i]) * velocity_of(i) *
+              velocity_of(i).transpose();
+  }
+  const Eigen::FullPivLU<Matrix> lattice(moments_about(Vec3::Zero()));
+  Vector moments = Vector::Zero(), sources = Vector::Zero();
+  for (int m = 16; m < 19; ++m) {
+    int other = 0;
+    for (int a = 0; a < 3; ++a)
+      if (kPowers[m][a] == 0) other = a;
+    moments[m] = density * u[other] * u[other] / 6;
+    sources[m] = u[other] * force[other] / 3;
+  }
+  equilibrium_vector += lattice.solve(moments);
+  source += lattice.solve(sources);
+
+  double tau = settings.relaxation_time;
+  if (settings.smagorinsky > 0) tau = eddy_time(settings, stress, density);
+  const double even_rate = 1 / tau, odd_rate = 1 / (0.5 + settings.magic / (tau - 0.5));
+  const Matrix transform = moments_about(u);
+  Vector away = transform * (Eigen::Map<const Vector>(f.data()) + 0.5 * source - equilibrium_vector);
+  for (int m = 0; m < kDirections; ++m)
+    away[m] *= 1 - ((kPowers[m][0] + kPowers[m][1] + kPowers[m][2]) % 2 == 0 ? even_rate : odd_rate);
+  CellPopulations result;
+  Eigen::Map<Vector>(result.data()) = equilibrium_vector + 0.5 * source + transform.fullPivLu().solve(away);
+  return result;
+}
+
+CellPopulations central_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
+                                const Vec3& u, const Vec3& force) {
+  const Matrix transform = moments_about(u);
   Vector k = transform * Eigen::Map<const Vector>(f.data());
 
   Mat3 stress;
@@ -121,9 +164,17 @@ CellPopulations reference_collision(const CellPopulations& populations, const Co
   CellPopulations f = populations;
   for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] -= kWeight[i] * carried;
   density -= carried;
-  f = settings.collision_operator == CollisionOperator::central_moments
-          ? central_moments(f, settings, density, momentum / density, force)
-          : two_rates(f, settings, density, momentum / density, force);
+  const Vec3 u = momentum / density;
+  switch (settings.collision_operator) {
+    case CollisionOperator::central_moments:
+      f = central_moments(f, settings, density, u, force);
+      break;
+    case CollisionOperator::trt_comoving:
+      f = comoving_rates(f, settings, density, u, force);
+      break;
+    default:
+      f = two_rates(f, settings, density, u, force);
+  }
   for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] += kWeight[i] * carried;
   return f;
 }

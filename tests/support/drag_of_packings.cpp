@@ -96,6 +96,7 @@ Scene make_scene(const Packing& packing, double diameter, const DragRun& run) {
   settings.units.spacing = 1;
   settings.units.time_step = 1;
   settings.fluid.collision.collision_operator = run.collision;
+  settings.fluid.collision.magic = run.magic;
   settings.fluid.precision = run.single ? lbm::Precision::float_precision : lbm::Precision::double_precision;
   settings.solids.cells.solid_operator = run.solid_operator;
   settings.solids.cells.weighting = run.weighting;

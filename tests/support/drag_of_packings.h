@@ -29,6 +29,7 @@ struct DragRun {
   lbm::SolidWeighting weighting = lbm::SolidWeighting::viscosity_independent;
   lbm::CollisionOperator collision = lbm::CollisionOperator::trt;
   FractionMethod fraction = FractionMethod::exact;
+  double magic = 0.1875;  ///< of trt
   double relaxation_time = 1;
   double coefficient = 0;             ///< 0: automatic
   std::optional<CoefficientLaw> law;  ///< of the automatic one, else the operator's

@@ -82,8 +82,8 @@ TEST_CASE("fast kernels equal the reference for every operator, option, storage 
   int compared = 0;
   for (const InstructionSet set : available_instruction_sets())
     for (const Precision precision : {Precision::double_precision, Precision::float_precision})
-      for (const CollisionOperator op :
-           {CollisionOperator::bgk, CollisionOperator::trt, CollisionOperator::central_moments})
+      for (const CollisionOperator op : {CollisionOperator::bgk, CollisionOperator::trt,
+                                         CollisionOperator::trt_comoving, CollisionOperator::central_moments})
         for (int options = 0; options < 16; ++options) {
           FluidSettings settings;
           settings.instruction_set = set;
@@ -99,7 +99,7 @@ TEST_CASE("fast kernels equal the reference for every operator, option, storage 
           CHECK(largest_difference(settings, force, solids) < tolerance(precision));
           ++compared;
         }
-  CHECK(compared >= 96);  // portable alone: 2 storage types x 3 operators x 16 options
+  CHECK(compared >= 128);  // portable alone: 2 storage types x 4 operators x 16 options
 }
 
 TEST_CASE("fast kernels equal the reference for every meaningful mix of faces") {

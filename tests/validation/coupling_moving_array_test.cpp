@@ -13,7 +13,14 @@ using namespace suffuse::coupling::test;
 namespace {
 
 constexpr int kCells = 10;
-constexpr double kTau = 0.7, kDriven = 2e-5;
+
+/// What an array is run in. The gradient goes with the viscosity squared: the same Reynolds number, 0.2.
+struct Water {
+  double relaxation_time = 0.7;
+  lbm::CollisionOperator collision = lbm::CollisionOperator::trt;
+  double viscosity() const { return lbm::viscosity_of(relaxation_time); }
+  double gradient() const { return 4.5e-3 * viscosity() * viscosity(); }
+};
 
 struct Run {
   double drag = 0;   ///< mean force / (3 pi mu d slip)
@@ -23,20 +30,21 @@ struct Run {
 
 /// One sphere of `diameter` in a cube, all of it moving at `speed` along x, driven along x. The sphere starts
 /// at `x`.
-Run run(const SolidSettings& solids, double diameter, double speed, double x) {
-  CoupledSettings settings = lattice_settings(kTau, solids);
-  settings.pressure_gradient = Vec3(kDriven, 0, 0);
+Run run(const SolidSettings& solids, double diameter, double speed, double x, const Water& water = {}) {
+  CoupledSettings settings = lattice_settings(water.relaxation_time, solids);
+  settings.fluid.collision.collision_operator = water.collision;
+  settings.pressure_gradient = Vec3(water.gradient(), 0, 0);
   Scene scene(settings, {kCells, kCells, kCells}, {sphere_at(Vec3(x, 5.27, 5.41), 0.5 * diameter)});
   scene.grains.mobile = speed > 0;
   scene.grains.list[0].velocity = Vec3(speed, 0, 0);
   scene.simulation->fluid().set_equilibrium([&](const Index3&) {
     return lbm::FluidPoint{1, Vec3(speed, 0, 0)};
   });
-  scene.run(1500);                                                             // ten times L^2/(pi^2 nu)
+  scene.run(std::lround(100 / water.viscosity()));                             // ten times L^2/(pi^2 nu)
   const int steps = speed > 0 ? static_cast<int>(std::lround(8 / speed)) : 1;  // eight cells
   const double volume = std::pow(kCells, 3);
   double flux = 0, sum = 0, squares = 0, worst = 0;
-  const double mean = kDriven * volume;
+  const double mean = water.gradient() * volume;
   for (int n = 0; n < steps; ++n) {
     scene.run(1);
     const double force = scene.force()[0];
@@ -46,14 +54,14 @@ Run run(const SolidSettings& solids, double diameter, double speed, double x) {
     worst = std::max(worst, std::abs(force / mean - 1));
   }
   const double slip = flux / steps / volume - speed;
-  return {sum / steps / (3 * std::numbers::pi * lbm::viscosity_of(kTau) * diameter * slip),
+  return {sum / steps / (3 * std::numbers::pi * water.viscosity() * diameter * slip),
           std::sqrt(squares / steps) / mean, worst};
 }
 
 /// At rest, mean over eight places in a cell.
-double at_rest(const SolidSettings& solids, double diameter) {
+double at_rest(const SolidSettings& solids, double diameter, const Water& water = {}) {
   double inverse = 0;
-  for (int n = 0; n < 8; ++n) inverse += 1 / run(solids, diameter, 0, 5 + n / 8.).drag / 8;
+  for (int n = 0; n < 8; ++n) inverse += 1 / run(solids, diameter, 0, 5 + n / 8., water).drag / 8;
   return 1 / inverse;
 }
 
@@ -69,6 +77,21 @@ TEST_CASE("drag does not change by 0.5 % when grains and fluid move together") {
                 100 * (moving.drag / still - 1));
     CHECK(std::abs(moving.drag / still - 1) < 0.005);
   }
+}
+
+TEST_CASE(
+    "an array that moves by five times the viscosity a step keeps its drag within 1.5 % with trt_comoving") {
+  // Cells that grains enter and leave faster than the fluid follows act as their mean over the way: 1 % more
+  // drag in this array. What TRT's lagging flow adds to that is not there.
+  const double diameter = 5.4;
+  const Water comoving{0.53, lbm::CollisionOperator::trt_comoving}, trt{0.53, lbm::CollisionOperator::trt};
+  const double still = at_rest(default_solids(), diameter, comoving);
+  const double with = run(default_solids(), diameter, 0.05, 5, comoving).drag / still,
+               without = run(default_solids(), diameter, 0.05, 5, trt).drag / still;
+  std::printf("array at 0.05 cells a step, viscosity 0.01: trt_comoving %+.2f %%, trt %+.2f %%\n",
+              100 * (with - 1), 100 * (without - 1));
+  CHECK(std::abs(with - 1) < 0.015);
+  CHECK(with < without);
 }
 
 TEST_CASE("the force noise of a sphere that crosses cells is below 1 %") {

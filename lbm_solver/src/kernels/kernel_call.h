@@ -62,23 +62,32 @@ enum class SolidKind {
   partial_mixed,  ///< partly covered cells by one of the SC operators
 };
 
+/// How a kernel's collision is built.
+enum class OperatorFamily {
+  two_rates,        ///< BGK and TRT
+  central_moments,  ///< CollisionOperator::central_moments
+  comoving_rates,   ///< CollisionOperator::trt_comoving
+};
+constexpr int kOperatorFamilies = 3;
+
 /// Which pieces a kernel is compiled with; a scene runs a kernel that has no others.
 struct KernelVariant {
-  bool central_moments = false;
+  OperatorFamily family = OperatorFamily::two_rates;
   bool forced = false;
   bool eddy_viscosity = false;
   SolidKind solids = SolidKind::none;
 };
 
-constexpr int kKernelVariants = 32;
+constexpr int kKernelVariants = 16 * kOperatorFamilies;
 
 constexpr int index_of(const KernelVariant& v) {
-  return (v.central_moments ? 1 : 0) | (v.forced ? 2 : 0) | (v.eddy_viscosity ? 4 : 0) |
-         8 * static_cast<int>(v.solids);
+  return (v.forced ? 1 : 0) + (v.eddy_viscosity ? 2 : 0) + 4 * static_cast<int>(v.solids) +
+         16 * static_cast<int>(v.family);
 }
 
 constexpr KernelVariant variant_of(int index) {
-  return {(index & 1) != 0, (index & 2) != 0, (index & 4) != 0, static_cast<SolidKind>(index / 8)};
+  return {static_cast<OperatorFamily>(index / 16), (index & 1) != 0, (index & 2) != 0,
+          static_cast<SolidKind>(index / 4 % 4)};
 }
 
 template <class T>

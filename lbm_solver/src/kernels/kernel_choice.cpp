@@ -22,15 +22,18 @@ Table<T> table_for(InstructionSet instruction_set) {
     case InstructionSet::avx512:
       avx512::fill_two_rates(table.data());
       avx512::fill_central_moments(table.data());
+      avx512::fill_comoving_rates(table.data());
       break;
     case InstructionSet::avx2:
       avx2::fill_two_rates(table.data());
       avx2::fill_central_moments(table.data());
+      avx2::fill_comoving_rates(table.data());
       break;
 #endif
     default:
       portable::fill_two_rates(table.data());
       portable::fill_central_moments(table.data());
+      portable::fill_comoving_rates(table.data());
   }
   return table;
 }

@@ -11,6 +11,8 @@ namespace suffuse::lbm {
   void fill_two_rates(Kernel<float>* table);     \
   void fill_central_moments(Kernel<double>*);    \
   void fill_central_moments(Kernel<float>*);     \
+  void fill_comoving_rates(Kernel<double>*);     \
+  void fill_comoving_rates(Kernel<float>*);      \
   void bare_update(const KernelCall<double>&);   \
   void bare_update(const KernelCall<float>&);    \
   }

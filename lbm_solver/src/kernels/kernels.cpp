@@ -1,4 +1,4 @@
-// Compiled once for each instruction set, storage type and half of the variants (see CMakeLists.txt), so that
+// Compiled once for each instruction set, storage type and family of operators (see CMakeLists.txt), so that
 // the program carries them all and chooses at start.
 #include "kernel_tables.h"
 #include "stream_collide.h"
@@ -9,20 +9,20 @@ namespace {
 
 using Storage = SUFFUSE_KERNEL_STORAGE;
 
-template <bool kCentralMoments, bool kForced, bool kEddy>
+template <OperatorFamily kFamily, bool kForced, bool kEddy>
 struct OperatorOf {
-  using Type = TwoRates<kForced, kEddy>;
+  using Type = TwoRates<kForced, kEddy, kFamily == OperatorFamily::comoving_rates>;
 };
 template <bool kForced, bool kEddy>
-struct OperatorOf<true, kForced, kEddy> {
+struct OperatorOf<OperatorFamily::central_moments, kForced, kEddy> {
   using Type = CentralMoments<kForced, kEddy>;
 };
 
 template <int kIndex>
 void run_variant(const KernelCall<Storage>& call) {
   constexpr KernelVariant v = variant_of(kIndex);
-  using Operator = typename OperatorOf<v.central_moments, v.forced, v.eddy_viscosity>::Type;
-  using ForcedOperator = typename OperatorOf<v.central_moments, true, v.eddy_viscosity>::Type;
+  using Operator = typename OperatorOf<v.family, v.forced, v.eddy_viscosity>::Type;
+  using ForcedOperator = typename OperatorOf<v.family, true, v.eddy_viscosity>::Type;
   if constexpr (v.solids == SolidKind::mask)
     stream_collide<Storage, Operator, SolidMask, v.forced>(call);
   else if constexpr (v.solids == SolidKind::partial_force)
@@ -37,7 +37,7 @@ void run_variant(const KernelCall<Storage>& call) {
 template <int kIndex>
 void fill(Kernel<Storage>* table) {
   if constexpr (kIndex < kKernelVariants) {
-    if constexpr (variant_of(kIndex).central_moments == (SUFFUSE_KERNEL_CENTRAL_MOMENTS == 1))
+    if constexpr (variant_of(kIndex).family == static_cast<OperatorFamily>(SUFFUSE_KERNEL_FAMILY))
       table[kIndex] = &run_variant<kIndex>;
     fill<kIndex + 1>(table);
   }
@@ -45,8 +45,12 @@ void fill(Kernel<Storage>* table) {
 
 }  // namespace
 
-#if SUFFUSE_KERNEL_CENTRAL_MOMENTS == 1
+#if SUFFUSE_KERNEL_FAMILY == 1
 void fill_central_moments(Kernel<Storage>* table) {
+  fill<0>(table);
+}
+#elif SUFFUSE_KERNEL_FAMILY == 2
+void fill_comoving_rates(Kernel<Storage>* table) {
   fill<0>(table);
 }
 #else
