@@ -18,7 +18,7 @@ def loops(program):
                           check=True).stdout
     for block in text.split("\n\n"):
         name, _, body = block.partition(":\n")
-        if "step_packs<" not in name:
+        if "step_row<" not in name:
             continue
         code = [(int(a, 16), i.strip()) for a, i in re.findall(r"^ +([0-9a-f]+):\t(.*)$", body, re.M)]
         jumps = [(int(m[1], 16), a) for a, i in code if (m := re.match(r"j\w+\s+([0-9a-f]+)", i))]
@@ -44,9 +44,11 @@ def count(body):
 
 def main():
     pattern = sys.argv[2] if len(sys.argv) > 2 else r"avx.*NoSolid"
-    for name, body in sorted(loops(sys.argv[1])):
-        if re.search(pattern, name):
-            print(f"{name:84s}" + "  ".join(f"{key} {value}" for key, value in count(body).items()))
+    found = [(name, body) for name, body in sorted(loops(sys.argv[1])) if re.search(pattern, name)]
+    if not found:
+        sys.exit(f"{sys.argv[1]} has no kernel whose name matches {pattern}")
+    for name, body in found:
+        print(f"{name:84s}" + "  ".join(f"{key} {value}" for key, value in count(body).items()))
 
 
 if __name__ == "__main__":

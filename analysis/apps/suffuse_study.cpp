@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <filesystem>
+#include <string_view>
 
 #include "suffuse/analysis/study_file.h"
 #include "suffuse/analysis/study_runner.h"
@@ -16,9 +17,12 @@ constexpr const char* kDescription =
     "What accuracy costs in time: runs a script once for every setting that a study file lists, and leaves a "
     "table\nand a figure of error against time. docs/analysis/suffuse-study.md describes the file.";
 
-int report(const char* what) {
+/// `what` may begin with the program's name: who has found the mistake.
+int report(std::string_view what) {
+  constexpr std::string_view name = "suffuse-study: ";
+  if (what.starts_with(name)) what.remove_prefix(name.size());
   std::fflush(stdout);
-  fmt::print(stderr, "suffuse-study: error: {}\n", what);
+  fmt::print(stderr, "{}error: {}\n", name, what);
   return 1;
 }
 
@@ -29,6 +33,7 @@ int main(int argc, char** argv) {
   CLI::App app{kDescription, "suffuse-study"};
   app.set_version_flag("--version", "suffuse-study " SUFFUSE_VERSION);
   std::string file;
+  std::string time = "wall";
   int ranks = 0;
   StudyRunSettings settings;
   bool no_figure = false;
@@ -40,27 +45,28 @@ int main(int argc, char** argv) {
   app.add_flag("--dry-run", settings.dry_run, "print the commands, run nothing");
   app.add_flag("--resume", settings.resume,
                "keep the runs that have ended in that folder, and do the others");
-  app.add_flag("--retry-failed", settings.retry_failed, "with --resume: do those that failed again");
-  app.add_option("--time", settings.time, "hold errors against wall or core seconds; wall if not given")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, StudyTime>{{"wall", StudyTime::wall}, {"core", StudyTime::core}}));
+  app.add_flag("--retry-failed", settings.retry_failed, "with --resume: do those that failed again")
+      ->needs("--resume");
+  app.add_option("--time", time, "hold errors against wall or core seconds; wall if not given")
+      ->check(CLI::IsMember({"wall", "core"}));
   app.add_flag("--no-figure", no_figure, "leave the figure out");
   app.add_option("--program", settings.program,
                  "the suffuse to run; the one beside this program if not given");
   try {
     app.parse(argc, argv);
     settings.figure = !no_figure;
+    settings.time = time == "core" ? StudyTime::core : StudyTime::wall;
     Study study = read_study(file);
     if (ranks > 0) study.ranks = ranks;
     if (settings.out.empty()) settings.out = "runs/" + std::filesystem::path(file).stem().string();
     return run_study(study, settings);
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
-    return report(fmt::format("{}; see --help", problem.what()).c_str());
+    return report(fmt::format("{}; see --help", problem.what()));
   } catch (const suffuse::UserError& problem) {
     return report(problem.what());
   } catch (const std::exception& failure) {
-    report(fmt::format("internal: {}", failure.what()).c_str());
+    report(fmt::format("internal: {}", failure.what()));
     return 2;
   }
 }

@@ -135,7 +135,8 @@ def draw(rows, options):
     axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=options.title or pathlib.Path(options.study).parent.name)
     ends = [row["x"] for row in runs + failed]
     low, high = min(ends), max(ends)
-    axes.set_xlim(low / (high / low) ** 0.05, high * (high / low) ** 0.12)  # room for the labels
+    span = max(high / low, 2)  # a single run has none
+    axes.set_xlim(low / span**0.05, high * span**0.12)  # room for the labels
     for row in failed:
         axes.plot(row["x"], 1, transform=axes.get_xaxis_transform(), clip_on=False, **(looks.of(row) | {"marker": "x", "fillstyle": "full"}))
     if options.within:

@@ -43,8 +43,8 @@ StudyCase case_of(const Study& study, const std::vector<std::string>& names, con
     std::optional<std::string> value = value_of(given, name);
     if (!value) value = value_of(study.base, name);
     if (!value)
-      throw_user_error(
-          {study.file, "[base] " + name, "not there", "be given", "it is swept in a part of the study only"});
+      throw_user_error({study.file, "[base] " + name, "not there", "be given",
+                        "runs that do not sweep it need its value"});
     run.swept.emplace_back(name, *value);
   }
   run.name = folder_name(run.swept);

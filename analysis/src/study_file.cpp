@@ -213,7 +213,8 @@ std::string script_of(const Section& section) {
 
 /// No name twice: they are columns of one table.
 void require_one_of_each(const Section& root, const Study& study) {
-  std::set<std::string> swept, names{"status", "reason", "wall_s", "core_s", "other_cores", "error", "front"};
+  std::set<std::string> swept,
+      names{"status", "reason", "wall_s", "core_s", "other_cores", "error", "front", "is_reference"};
   for (const SweepBlock& block : study.sweeps)
     for (const auto& [name, values] : block) swept.insert(name);
   const auto take = [&](const std::string& name) {
@@ -229,6 +230,20 @@ void require_one_of_each(const Section& root, const Study& study) {
   if (study.finest.size() != 0 && study.finest.size() != swept.size())
     root.complain("[finest]", fmt::format("{} variables", study.finest.size()),
                   fmt::format("give all that are swept: {}", fmt::join(swept, ", ")));
+}
+
+/// {prepare} is a folder only where something is prepared.
+void require_no_preparation(const Section& root, const Study& study) {
+  const auto look = [&](const std::string& name, const std::string& value) {
+    if (value.find("{prepare}") != value.npos)
+      root.complain(name, value, "go with a section [prepare], whose folder {prepare} stands for");
+  };
+  for (const auto& [name, value] : study.fixed) look(name, value);
+  for (const auto& [name, value] : study.base) look(name, value);
+  for (const auto& [name, value] : study.finest) look(name, value);
+  for (const SweepBlock& block : study.sweeps)
+    for (const auto& [name, values] : block)
+      for (const std::string& value : values) look(name, value);
 }
 
 }  // namespace
@@ -249,7 +264,10 @@ Study read_study(const std::string& path) {
   study.file = files::absolute(path).string();
   study.title = root.text("title", files::path(path).stem().string());
   study.script = script_of(root);
-  study.ranks = static_cast<int>(root.number("ranks", 1, 1));
+  const double ranks = root.number("ranks", 1, 1);
+  if (ranks != std::floor(ranks) || ranks > 100000)
+    root.complain("ranks", fmt::format("{}", ranks), "be a whole number up to 100000");
+  study.ranks = static_cast<int>(ranks);
   study.time_limit = root.number("time_limit", 0, 0);
   study.within = root.number("within", 3, 0) / 100;
   const std::string design = root.text("design", "grid");
@@ -272,6 +290,8 @@ Study read_study(const std::string& path) {
   if (root.has("prepare")) {
     const Section section(path, "prepare", &root.table("prepare"), {"script", "variables"});
     study.preparation = {script_of(section), variables_of(section, "variables")};
+  } else {
+    require_no_preparation(root, study);
   }
   return study;
 }

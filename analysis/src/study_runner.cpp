@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -168,8 +169,10 @@ class Runner {
   /// Runs a script in an empty folder and keeps its record; nothing where it was interrupted.
   std::optional<RunRecord> execute(const std::string& folder, const std::vector<std::string>& words,
                                    const std::string& settings) {
-    files::remove_all(folder);
-    files::create_directories(folder);
+    std::error_code problem;
+    files::remove_all(folder, problem);
+    if (!problem) files::create_directories(folder, problem);
+    if (problem) throw_user_error({kWho, "folder", folder, "be writable", problem.message()});
     const ProcessEnd end = run_timed(words, folder, kLog, study_.time_limit);
     if (end.how == ProcessEnd::How::interrupted) return std::nullopt;
     RunRecord record = record_of(end, (files::path(folder) / kLog).string(), study_.time_limit, settings);
@@ -209,10 +212,28 @@ class Runner {
       }
     }
     StudyRow row{run, *record, {}, {}, {}, false};
-    if (record->status == RunRecord::Status::finished) read_values(folder, row);
+    if (record->status == RunRecord::Status::finished) {
+      try {
+        read_values(folder, row);
+      } catch (const UserError&) {
+        if (is_new) fmt::print("{}\n", duration_text(record->wall));
+        throw;
+      }
+    }
     table_.add(std::move(row));
     table_.write_csv((out_ / "study.csv").string());
     if (is_new) tell(table_.rows().back());
+  }
+
+  void require_file(const StudyQuantity& quantity, const std::string& folder) const {
+    if (files::is_regular_file(files::path(folder) / quantity.cell.file)) return;
+    std::vector<std::string> names;
+    for (const files::directory_entry& entry : files::directory_iterator(folder))
+      if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    throw_user_error({study_.file + ": " + quantity.name, "file", quantity.cell.file, "be left by a run",
+                      names.empty() ? "no CSV file in " + folder
+                                    : fmt::format("its folder has {}", fmt::join(names, ", "))});
   }
 
   /// A quantity that a run lacks is the study's mistake, unless others have it: then this run went wrong.
@@ -222,6 +243,7 @@ class Runner {
       cell.file = (files::path(folder) / cell.file).string();
       std::string problem;
       try {
+        require_file(quantity, folder);
         const double value = read_csv_cell(cell, study_.file + ": " + quantity.name);
         if (std::isfinite(value)) {
           row.values.emplace_back(value);

@@ -2,6 +2,9 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,6 +54,9 @@ double seconds(const timeval& time) {
 /// In the child: becomes the program. Returns only where it cannot.
 void become(const std::vector<std::string>& words, const std::string& folder, const std::string& log) {
   setpgid(0, 0);  // so that all that it starts can be ended with it
+#ifdef __linux__
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // if the study is killed, no run stays behind in its folder
+#endif
   if (chdir(folder.c_str()) != 0) return;
   const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   const int nothing = open("/dev/null", O_RDONLY);

@@ -19,6 +19,13 @@
 #include "register_styles.h"
 #include "suffuse/common/error.h"
 
+/// LIGGGHTS ends by this on its own errors, and what it said would be lost where screen and log are files
+/// that have not been flushed yet.
+extern "C" int MPI_Abort(MPI_Comm communicator, int code) {
+  std::fflush(nullptr);
+  return PMPI_Abort(communicator, code);
+}
+
 namespace {
 
 constexpr const char* kHelp = R"(suffuse {version}: soil mechanics at the grain scale, on LIGGGHTS

@@ -45,6 +45,7 @@ class LbmRun {
   bool is_steady(double share);
   std::string details() const;
   std::string table();
+  std::optional<std::string> drag_note() const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   const LbmSettings& settings_;
@@ -56,6 +57,7 @@ class LbmRun {
   std::int64_t grains_ = 0;
   double start_ = 0;
   lbm::FluidExtremes extremes_;
+  double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
   std::optional<Vec3> last_flow_, last_motion_;
 };
 

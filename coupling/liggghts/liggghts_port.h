@@ -109,6 +109,7 @@ class LiggghtsPort final : public ParticlePort {
     Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
     double packing = 0;                                ///< solid volume over that of this box
     double kinetic_energy = 0;                         ///< J
+    double speed = 0;                                  ///< of the fastest centre, m/s
     Vec3 load = Vec3::Zero();                          ///< sum of the fluid's forces, N
   };
   Summary summary() const;

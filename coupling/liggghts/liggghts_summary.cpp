@@ -88,7 +88,7 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
     double grains, radius_squared, volume, energy, load[3];
   } sums{};
   struct {
-    double minus_radius, radius, minus_density, density, high[3], minus_low[3];
+    double minus_radius, radius, minus_density, density, speed_squared, high[3], minus_low[3];
   } extremes;
   std::fill_n(&extremes.minus_radius, sizeof extremes / sizeof(double), -1e300);
   for (int i = 0; i < atom->nlocal; ++i) {
@@ -97,9 +97,10 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
     sums.grains += 1;
     sums.radius_squared += r * r;
     sums.volume += volume;
+    const double speed_squared = Eigen::Map<const Vec3>(atom->v[i]).squaredNorm();
     sums.energy += 0.5 * atom->rmass[i] *
-                   (Eigen::Map<const Vec3>(atom->v[i]).squaredNorm() +
-                    0.4 * r * r * Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
+                   (speed_squared + 0.4 * r * r * Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
+    extremes.speed_squared = std::max(extremes.speed_squared, speed_squared);
     extremes.minus_radius = std::max(extremes.minus_radius, -r);
     extremes.radius = std::max(extremes.radius, r);
     extremes.minus_density = std::max(extremes.minus_density, -density);
@@ -122,6 +123,7 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   summary.smallest_density = -extremes.minus_density;
   summary.largest_density = extremes.density;
   summary.kinetic_energy = sums.energy;
+  summary.speed = std::sqrt(extremes.speed_squared);
   summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
   for (int a = 0; a < 3; ++a)
     summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);

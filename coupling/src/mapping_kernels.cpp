@@ -17,14 +17,17 @@ constexpr float kFractionRounding = 3.f, kStrengthRounding = 192.f;
   return list.z + arrays.lo[2] + 0.5 - m.position[2];
 }
 
+/// Never beyond the rows that the sphere was placed in, for whose number the notes have room: an end that
+/// falls on a cell's centre may round otherwise here.
 [[gnu::always_inline]] inline SliceRows rows_of(const MappedSphere& m, const SliceList& list,
                                                 const CellArrays& arrays) {
   const double dz = plane_from_centre(m, list, arrays), left = m.reach * m.reach - dz * dz;
   if (!(left > 0)) return {0, 0};
   const double half = __builtin_sqrt(left), middle = m.position[1] - 0.5 - arrays.lo[1];
   const double first = __builtin_ceil(middle - half), last = __builtin_floor(middle + half);
-  return {first > list.begin_y ? static_cast<int>(first) : list.begin_y,
-          last + 1 < list.end_y ? static_cast<int>(last) + 1 : list.end_y};
+  const int begin = list.begin_y > m.y_begin ? list.begin_y : m.y_begin;
+  const int end = list.end_y < m.y_end ? list.end_y : m.y_end;
+  return {first > begin ? static_cast<int>(first) : begin, last + 1 < end ? static_cast<int>(last) + 1 : end};
 }
 
 /// The lists' spheres lie apart in memory: what slice i + 4 needs is fetched while slice i is worked on.
