@@ -37,7 +37,7 @@ void require_stable(const FluidExtremes& extremes, const Units& units, double ti
   const double mach = mach_of(extremes);
   if (mach > largest_mach)
     throw_user_error(
-        {who, what, fmt::format("Mach number {:.3g}", mach),
+        {who, what, fmt::format("Mach number {:.5g}", mach),
          fmt::format("stay below {:g}: a lattice fluid is nearly incompressible only there", largest_mach),
          remedy(units, std::min(half, largest_mach / mach))});
 }
