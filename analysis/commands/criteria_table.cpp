@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/grading_file.h"
 #include "suffuse/analysis/grain_snapshot.h"
 #include "suffuse/analysis/number_parser.h"
@@ -20,14 +21,6 @@ using micromechanics::Grading;
 
 std::string value_text(double value) {
   return std::isnan(value) ? "-" : fmt::format("{:.4g}", value);
-}
-
-/// A CSV cell; between quotes where it must be.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
 }
 
 }  // namespace
@@ -54,9 +47,10 @@ std::string criteria_text(const std::vector<CriterionResult>& results) {
 void write_criteria(SafeFile& file, const std::vector<CriterionResult>& results) {
   file.write("criterion,measure,value,limit,verdict,source,note\n");
   for (const CriterionResult& result : results)
-    file.write(fmt::format("{},{},{},{},{},{},{}\n", cell(result.criterion), cell(result.measure),
+    file.write(fmt::format("{},{},{},{},{},{},{}\n", csv_text(result.criterion), csv_text(result.measure),
                            std::isnan(result.value) ? std::string() : fmt::format("{}", result.value),
-                           cell(result.limit), to_string(result.verdict), result.source, cell(result.note)));
+                           csv_text(result.limit), to_string(result.verdict), result.source,
+                           csv_text(result.note)));
 }
 
 void set_limits(const std::vector<std::string>& words, const std::string& who,

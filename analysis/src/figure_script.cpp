@@ -38,8 +38,7 @@ int run(const std::vector<std::string>& words, bool silent) {
 std::string find_script(const std::string& script, const std::string& who) {
   std::vector<files::path> folders;
   if (const char* given = std::getenv("SUFFUSE_FIGURES")) folders.emplace_back(given);
-  std::error_code ignored;  // without /proc only the variable helps
-  files::path above = files::read_symlink("/proc/self/exe", ignored).parent_path();
+  files::path above = program_folder();
   folders.push_back(above.parent_path() / "share/suffuse/figures");
   for (; above.has_relative_path(); above = above.parent_path())
     folders.push_back(above / "analysis/figures");
@@ -62,6 +61,11 @@ std::string find_python(const std::string& who) {
 }
 
 }  // namespace
+
+files::path program_folder() {
+  std::error_code ignored;
+  return files::read_symlink("/proc/self/exe", ignored).parent_path();
+}
 
 void make_figure(const std::string& script, const std::vector<std::string>& arguments,
                  const std::string& who) {

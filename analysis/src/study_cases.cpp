@@ -20,6 +20,12 @@ std::optional<std::string> value_of(const VariableValues& values, const std::str
   return std::nullopt;
 }
 
+std::string joined(const VariableValues& variables, const char* separator) {
+  std::string text;
+  for (const auto& [name, value] : variables) text += (text.empty() ? "" : separator) + name + '=' + value;
+  return text;
+}
+
 /// A folder's name that a shell and LIGGGHTS take without quotes.
 std::string folder_name(const VariableValues& swept) {
   std::string name;
@@ -31,8 +37,7 @@ std::string folder_name(const VariableValues& swept) {
       name += plain ? c : '_';
     }
   }
-  std::string exact;
-  for (const auto& [variable, value] : swept) exact += (exact.empty() ? "" : ",") + variable + '=' + value;
+  const std::string exact = joined(swept, ",");
   if (name == exact && name.size() <= kLongestName) return name;
   return name.substr(0, kLongestName) + '-' + fingerprint_of(exact).substr(0, 8);  // no two values alike
 }
@@ -101,9 +106,7 @@ std::vector<StudyCase> study_cases(const Study& study) {
 }
 
 std::string variables_text(const VariableValues& variables) {
-  std::string text;
-  for (const auto& [name, value] : variables) text += (text.empty() ? "" : ", ") + name + '=' + value;
-  return text;
+  return joined(variables, ", ");
 }
 
 }  // namespace suffuse::analysis

@@ -80,11 +80,7 @@ std::string value_text(const toml::node& node, const Section& section, const std
     if (std::isfinite(number->get())) return fmt::format("{}", number->get());
   const auto* text = node.as_string();
   if (text == nullptr || text->get().empty()) section.complain(key, "neither", "be a number or a text");
-  std::string value = text->get();
-  const std::string folder = files::absolute(section.file()).parent_path().string();
-  for (std::size_t at = 0; (at = value.find("{study}", at)) != value.npos; at += folder.size())
-    value.replace(at, 7, folder);
-  return value;
+  return with_folder(text->get(), "{study}", files::absolute(section.file()).parent_path().string());
 }
 
 VariableValues variables_of(const Section& root, const char* name) {
@@ -247,6 +243,12 @@ void require_no_preparation(const Section& root, const Study& study) {
 }
 
 }  // namespace
+
+std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder) {
+  for (std::size_t at = 0; (at = value.find(placeholder, at)) != value.npos; at += folder.size())
+    value.replace(at, placeholder.size(), folder);
+  return value;
+}
 
 Study read_study(const std::string& path) {
   toml::table table;

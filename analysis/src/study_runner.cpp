@@ -15,6 +15,7 @@
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/signal_watch.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -24,25 +25,20 @@ namespace files = std::filesystem;
 constexpr const char* kWho = "suffuse-study";
 constexpr const char* kLog = "log.txt";
 
-files::path own_folder() {
-  std::error_code ignored;  // without /proc, PATH must do
-  return files::read_symlink("/proc/self/exe", ignored).parent_path();
-}
-
 std::string find_program(const std::string& given) {
   if (!given.empty()) {
     if (access(given.c_str(), X_OK) != 0 || files::is_directory(given))
       throw_user_error({kWho, "--program", given, "be a program that can be run", ""});
     return files::absolute(given).string();
   }
-  const files::path beside = own_folder() / "suffuse";
+  const files::path beside = program_folder() / "suffuse";  // without /proc, PATH must do
   return files::exists(beside) ? beside.string() : "suffuse";
 }
 
 /// scripts/mpirun of the source tree above the program, or Open MPI's own.
 std::vector<std::string> launcher(int ranks) {
   if (ranks == 1) return {};
-  for (files::path above = own_folder(); above.has_relative_path(); above = above.parent_path())
+  for (files::path above = program_folder(); above.has_relative_path(); above = above.parent_path())
     if (files::is_regular_file(above / "scripts/mpirun"))
       return {(above / "scripts/mpirun").string(), std::to_string(ranks)};
   return {"mpirun", "-np", std::to_string(ranks)};
@@ -72,10 +68,10 @@ class Runner {
   int run() {
     if (settings_.dry_run) return list_commands();
     make_folders();
-    const InterruptGuard guard;
+    const SignalWatch watch({{SIGINT, SignalWatch::Second::noted}, {SIGTERM, SignalWatch::Second::noted}});
     prepare();
-    for (std::size_t k = 0; k < cases_.size() && InterruptGuard::signal() == 0; ++k) run_case(k);
-    const int signal = InterruptGuard::signal();
+    for (std::size_t k = 0; k < cases_.size() && SignalWatch::received() == 0; ++k) run_case(k);
+    const int signal = SignalWatch::received();
     report();
     if (signal == 0 && table_.none_finished())
       throw_user_error(
@@ -104,13 +100,8 @@ class Runner {
   std::vector<std::string> command(const std::string& script, const VariableValues& variables) const {
     std::vector<std::string> words = first_words_;
     words.insert(words.end(), {"-in", script});
-    for (const auto& [name, value] : variables) {
-      std::string text = value;
-      const std::string folder = (out_ / "prepare").string();
-      for (std::size_t at = 0; (at = text.find("{prepare}", at)) != text.npos; at += folder.size())
-        text.replace(at, 9, folder);
-      words.insert(words.end(), {"-var", name, text});
-    }
+    for (const auto& [name, value] : variables)
+      words.insert(words.end(), {"-var", name, with_folder(value, "{prepare}", (out_ / "prepare").string())});
     return words;
   }
 

@@ -61,16 +61,19 @@ double StudyTable::seconds(const StudyRow& row) const {
   return time_ == StudyTime::wall ? row.record.wall : row.record.core;
 }
 
+std::optional<double> StudyTable::target_of(std::size_t quantity) const {
+  if (study_.quantities[quantity].by_finest)
+    for (const StudyRow& row : rows_)
+      if (row.run.is_reference) return row.values[quantity];
+  return study_.quantities[quantity].reference;
+}
+
 void StudyTable::work_out_errors() {
-  const auto reference =
-      std::find_if(rows_.begin(), rows_.end(), [](const StudyRow& row) { return row.run.is_reference; });
   for (StudyRow& row : rows_) {
     row.errors.assign(study_.quantities.size(), std::nullopt);
     row.error.reset();
     for (std::size_t k = 0; k < study_.quantities.size(); ++k) {
-      const StudyQuantity& quantity = study_.quantities[k];
-      std::optional<double> target = quantity.reference;
-      if (quantity.by_finest && reference != rows_.end()) target = reference->values[k];
+      const std::optional<double> target = target_of(k);
       if (!row.values[k] || !target || *target == 0) continue;
       row.errors[k] = relative_error(*row.values[k], *target);
       row.error = std::max(row.error.value_or(0), *counted_error(row, k));
@@ -196,20 +199,15 @@ void StudyTable::write_csv(const std::string& path) const {
   for (const StudyQuantity& quantity : study_.quantities)
     line += fmt::format(",{0},{0}_reference,{0}_error", csv_text(quantity.name));
   file.write(line + ",error,front,is_reference,reason\n");
-  const auto reference =
-      std::find_if(rows_.begin(), rows_.end(), [](const StudyRow& row) { return row.run.is_reference; });
   for (const StudyRow& row : rows_) {
     line.clear();
     for (const auto& [name, value] : row.run.swept) line += csv_text(value) + ',';
     for (const auto& [name, value] : study_.fixed) line += csv_text(value) + ',';
     line += fmt::format("{},{:.4g},{:.4g},{:.2f}", to_string(row.record.status), row.record.wall,
                         row.record.core, row.record.other_cores);
-    for (std::size_t k = 0; k < study_.quantities.size(); ++k) {
-      std::optional<double> target = study_.quantities[k].reference;
-      if (study_.quantities[k].by_finest && reference != rows_.end()) target = reference->values[k];
-      line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target, ""),
+    for (std::size_t k = 0; k < study_.quantities.size(); ++k)
+      line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target_of(k), ""),
                           row.errors[k] ? fmt::format("{:.6g}", *row.errors[k]) : "");
-    }
     line += fmt::format(",{},{:d},{:d},{}\n", row.error ? fmt::format("{:.6g}", *row.error) : "",
                         row.on_front, row.run.is_reference, csv_text(row.record.reason));
     file.write(line);

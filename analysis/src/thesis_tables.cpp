@@ -4,31 +4,21 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/number_parser.h"
 #include "thesis_tables_data.h"
 
 namespace suffuse::analysis {
 namespace {
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line) {
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  }
-  return cells;
-}
-
-/// Rows of a table without quoted cells, by column.
+/// Rows of a table, by column.
 std::vector<std::map<std::string, std::string>> rows_of(const char* text) {
   std::istringstream lines(text);
   std::vector<std::string> names;
   std::vector<std::map<std::string, std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line[0] == '#') continue;
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = csv_cells(line);
     if (names.empty()) {
       names = cells;
       continue;

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +17,7 @@
 #include <thread>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/signal_watch.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -26,13 +26,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPatience = 10;  // seconds between SIGTERM and SIGKILL: `suffuse` ends its fluid step first
 constexpr auto kLook = std::chrono::milliseconds(2);
-
-std::atomic<int> caught{0};
-struct sigaction old_interrupt, old_terminate;
-
-void catch_signal(int number) {
-  caught = number;
-}
 
 double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -97,9 +90,9 @@ ProcessEnd::How wait_for(pid_t child, double limit, int& status, rusage& usage) 
   double asked = 0;
   while (wait4(child, &status, WNOHANG, &usage) == 0) {
     const double now = since(begin);
-    const bool over = limit > 0 && now > limit;
-    if (how == ProcessEnd::How::exited && (over || caught != 0)) {
-      how = caught != 0 ? ProcessEnd::How::interrupted : ProcessEnd::How::too_long;
+    const bool over = limit > 0 && now > limit, interrupted = SignalWatch::received() != 0;
+    if (how == ProcessEnd::How::exited && (over || interrupted)) {
+      how = interrupted ? ProcessEnd::How::interrupted : ProcessEnd::How::too_long;
       asked = now;
       kill(-child, SIGTERM);
     }
@@ -110,23 +103,6 @@ ProcessEnd::How wait_for(pid_t child, double limit, int& status, rusage& usage) 
 }
 
 }  // namespace
-
-InterruptGuard::InterruptGuard() {
-  caught = 0;
-  struct sigaction action {};
-  action.sa_handler = catch_signal;
-  sigaction(SIGINT, &action, &old_interrupt);
-  sigaction(SIGTERM, &action, &old_terminate);
-}
-
-InterruptGuard::~InterruptGuard() {
-  sigaction(SIGINT, &old_interrupt, nullptr);
-  sigaction(SIGTERM, &old_terminate, nullptr);
-}
-
-int InterruptGuard::signal() {
-  return caught;
-}
 
 ProcessEnd run_timed(const std::vector<std::string>& words, const std::string& folder, const std::string& log,
                      double limit) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <csignal>
 #include <exception>
 #include <string>
 #include <utility>
@@ -19,24 +17,6 @@ class Interrupted final : public std::exception {
  private:
   int signal_;
   std::string text_;
-};
-
-/// Notes SIGTERM, SIGINT and SIGUSR1 while it lives instead of dying of them, and puts the handlers back that
-/// were there. A second SIGINT acts as usual: whoever waits at a terminal can end the program at once.
-/// SIGUSR1 is what mpirun passes on without killing its programs a second later.
-class SignalWatch {
- public:
-  SignalWatch();
-  ~SignalWatch();
-  SignalWatch(const SignalWatch&) = delete;
-  SignalWatch& operator=(const SignalWatch&) = delete;
-
-  /// Number of the signal that has come to this rank; 0: none.
-  int received() const;
-
- private:
-  static constexpr std::array<int, 3> kSignals{SIGTERM, SIGUSR1, SIGINT};
-  std::array<struct sigaction, kSignals.size()> before_;
 };
 
 /// "SIGTERM", "SIGINT", "SIGUSR1".

@@ -13,6 +13,7 @@
 #include "manifest.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/signal_watch.h"
 #include "suffuse/coupling/plane_sums.h"
 #include "suffuse/lbm/health.h"
 
@@ -182,7 +183,10 @@ std::optional<std::string> LbmRun::drag_note() const {
 
 void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
                  std::optional<double> continue_after) {
-  const SignalWatch signals;
+  // A second SIGINT acts as usual: whoever waits at a terminal can end the program at once. SIGUSR1 is what
+  // mpirun passes on without killing its programs a second later.
+  using enum SignalWatch::Second;
+  const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
   begin(request, effects, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
@@ -193,7 +197,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
     advance(step, is_last);
     is_last = look(step, request);
     progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
-    stop = port_.stop_requested(signals.received());
+    stop = port_.stop_requested(SignalWatch::received());
   }
   const bool interrupted = stop > LiggghtsPort::kFixStops;
   const std::string last_words = interrupted ? interruption_text(stop) : "";

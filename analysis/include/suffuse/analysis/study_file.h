@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "suffuse/analysis/csv_cell.h"
+
 namespace suffuse::analysis {
 
 /// Script variables with their values as `-var` takes them, in the order of the file.
@@ -14,15 +16,8 @@ using VariableValues = std::vector<std::pair<std::string, std::string>>;
 /// Values of some variables of which every combination is run.
 using SweepBlock = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// A number in a CSV file: of the row in which the columns of `where` have these values, or, without `where`,
-/// `take` of a whole column.
-struct CsvCell {
-  enum class Take { last, first, largest, smallest, mean };
-
-  std::string file, column;
-  std::vector<std::pair<std::string, std::string>> where;
-  Take take = Take::last;
-};
+/// A value with every {study} or {prepare}, say, replaced by the folder that it stands for.
+std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder);
 
 /// What is read from every run, and what it should be.
 struct StudyQuantity {

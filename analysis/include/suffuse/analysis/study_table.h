@@ -47,6 +47,8 @@ class StudyTable {
   /// By the largest error, or by that of one quantity.
   std::vector<TradeOff> trade_offs(std::optional<std::size_t> quantity = std::nullopt) const;
   std::string sentence(const std::vector<TradeOff>& runs) const;
+  /// What a quantity should be; nothing while the finest run has not ended.
+  std::optional<double> target_of(std::size_t quantity) const;
   void work_out_errors();
   /// No smaller than the reference is uncertain.
   std::optional<double> counted_error(const StudyRow& row, std::size_t quantity) const;

@@ -16,22 +16,9 @@ struct ProcessEnd {
   double other_cores = 0;  ///< cores that other programs kept busy meanwhile, on average
 };
 
-/// While one of these lives, SIGINT and SIGTERM end the program that run_timed waits for instead of this one,
-/// and are remembered.
-class InterruptGuard {
- public:
-  InterruptGuard();
-  ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-  /// The signal that has come; 0: none.
-  static int signal();
-};
-
 /// Runs a program in a folder, its output and errors in `log` there, and waits for it. `limit` in seconds (0:
 /// none): what takes longer is ended, with all that it started (SIGTERM, ten seconds later SIGKILL); so it is
-/// on a signal (InterruptGuard). Throws UserError where it cannot be started.
+/// on a signal (SignalWatch). Throws UserError where it cannot be started.
 ProcessEnd run_timed(const std::vector<std::string>& words, const std::string& folder, const std::string& log,
                      double limit);
 
