@@ -13,6 +13,7 @@
 #include "suffuse/analysis/record_table.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
+#include "user_error_message.h"
 
 using namespace suffuse;
 using namespace suffuse::analysis;
@@ -108,23 +109,15 @@ Record record_of(const std::vector<std::string>& paths, const ReadSettings& sett
   return ContactMeasurer({}).measure(snapshot);
 }
 
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UserError& problem) {
-    return problem.what();
-  }
-  return "no error";
-}
-
 /// What reading all snapshots says.
 std::string message_of(const std::vector<std::string>& paths) {
-  return message_of([&] {
+  const auto read_all = [&] {
     const auto series = open_series(paths, {});
     Snapshot snapshot;
     while (series->next(snapshot)) {
     }
-  });
+  };
+  return suffuse::message_of(read_all, "no error");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "suffuse/analysis/study_table.h"
 #include "suffuse/analysis/trade_off.h"
 #include "suffuse/common/error.h"
+#include "user_error_message.h"
 
 using namespace suffuse;
 using namespace suffuse::analysis;
@@ -48,15 +49,6 @@ StudyRow row(const std::string& value, double wall, double core, double result) 
   made.record.core = core;
   made.values = {result};
   return made;
-}
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UserError& problem) {
-    return problem.what();
-  }
-  return "";
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ enum class CollisionOperator {
   trt,  ///< two relaxation times: even parts at the viscosity's rate, odd parts tied to it by `magic`
   /// TRT about the local velocity: moments in the frame of the fluid relax, not those of the lattice. The
   /// same as TRT in creeping flow. Where grains carry their fluid along at a speed V beyond V/nu = 2 (lattice
-  /// units), TRT's flow between them falls behind them and the drag rises; here it does not
-  /// (docs/decisions/solid-operator.md). A fifth more time for the fluid.
+  /// units), TRT's flow between them falls behind them and the drag rises; here by less than half as much
+  /// (docs/decisions/solid-operator.md). A third more time for the fluid.
   trt_comoving,
   central_moments,  ///< relaxes moments about the local velocity; for relaxation times near 0.5
 };
