@@ -5,14 +5,21 @@
 #include <string>
 
 #include "compute.h"
+#include "error.h"
 #include "fix.h"
+#include "force.h"
 #include "input.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
+#include "pair.h"
 #include "run.h"
 #include "signal_handling.h"
 #include "styles/all_styles.h"
 #include "styles/early_stop.h"
+#include "styles/fix_contact_history_vector.h"
+#include "styles/neighbor_by_size.h"
+#include "styles/pair_gran_vector.h"
 
 namespace {
 
@@ -98,21 +105,47 @@ const std::map<std::string, CommandCreator>& our_commands() {
   return styles;
 }
 
+suffuse::GrainLoop loop_in_use = suffuse::GrainLoop::vector;
+std::map<std::string, CommandCreator> added_commands;  // for `clear`
+
+/// Our neighbour lists and contact loop, under LIGGGHTS's names. Every class of LIGGGHTS reaches the lists through
+/// a reference to the pointer that is changed here.
+void install_grain_loop(LAMMPS* lmp) {
+  delete lmp->neighbor;
+  lmp->neighbor = new NeighborBySize(lmp);
+  (*lmp->force->pair_map)["gran"] = [](LAMMPS* l) -> Pair* { return new PairGranVector(l); };
+  (*(lmp->modify->*member_of(FixMap{})))["contacthistory"] = &make_fix<FixContactHistoryVector>;
+}
+
 }  // namespace
+
+/// The script's `clear` makes all of LIGGGHTS's parts anew, and would forget ours. It is no virtual function; this
+/// definition takes the place of the library's (which does the same but for the last line).
+void LAMMPS_NS::Input::clear() {
+  if (narg > 0) error->all(FLERR, "Illegal clear command");
+  lmp->destroy();
+  lmp->create();
+  lmp->post_create();
+  suffuse::register_styles(lmp, loop_in_use);
+}
 
 namespace suffuse {
 
-void register_styles(LAMMPS* lmp) {
+void register_styles(LAMMPS* lmp, GrainLoop loop) {
+  loop_in_use = loop;
+  if (loop == GrainLoop::vector) install_grain_loop(lmp);
   for (const auto& [name, creator] : our_computes())
     (*(lmp->modify->*member_of(ComputeMap{})))[name] = creator;
   for (const auto& [name, creator] : our_fixes()) (*(lmp->modify->*member_of(FixMap{})))[name] = creator;
   auto& commands = *(lmp->input->*member_of(CommandMap{}));
   for (const auto& [name, creator] : our_commands()) commands[name] = creator;
+  for (const auto& [name, creator] : added_commands) commands[name] = creator;
   commands["run"] = &run_until_stopped;
   EarlyStop::supported = true;
 }
 
 void add_command(LAMMPS* lmp, const std::string& name, CommandCreator command) {
+  added_commands[name] = command;
   (*(lmp->input->*member_of(CommandMap{})))[name] = command;
 }
 

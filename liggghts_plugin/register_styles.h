@@ -9,9 +9,16 @@ class LAMMPS;
 
 namespace suffuse {
 
+/// Whose neighbour lists and contact loop `pair_style gran` gets.
+enum class GrainLoop {
+  vector,  ///< ours: PairGranVector and NeighborBySize
+  stock    ///< LIGGGHTS's, bit for bit
+};
+
 /// Adds our fixes, computes and commands to a LIGGGHTS instance, and puts our `run` in place of LIGGGHTS's
-/// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line.
-void register_styles(LAMMPS_NS::LAMMPS* lmp);
+/// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line; the script's `clear`
+/// does it again.
+void register_styles(LAMMPS_NS::LAMMPS* lmp, GrainLoop loop = GrainLoop::vector);
 
 /// Makes a command known that is defined elsewhere. It gets the words after its name.
 void add_command(LAMMPS_NS::LAMMPS* lmp, const std::string& name,

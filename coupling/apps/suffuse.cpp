@@ -39,6 +39,7 @@ LIGGGHTS options pass through, among them:
   -log FILE           name of the log file (none: no log)
   -screen FILE        screen output to a file (none: no screen output)
   -echo WHAT          none, screen, log or both
+  -suffix off         LIGGGHTS's own neighbour lists and contact loop instead of ours: its numbers bit for bit
 
 Our own:
   --help              this text
@@ -100,6 +101,18 @@ std::vector<char*> with_a_real_screen(int argc, char** argv) {
   return arguments;
 }
 
+/// `-suffix off` is ours: LIGGGHTS would look for styles with that ending. Takes the two words out.
+suffuse::GrainLoop take_grain_loop(std::vector<char*>& arguments) {
+  for (std::size_t i = 1; i + 1 < arguments.size(); ++i) {
+    const bool is_suffix = std::strcmp(arguments[i], "-suffix") == 0 || std::strcmp(arguments[i], "-sf") == 0;
+    if (!is_suffix || std::strcmp(arguments[i + 1], "off") != 0) continue;
+    const auto first = arguments.begin() + static_cast<std::ptrdiff_t>(i);
+    arguments.erase(first, first + 2);
+    return suffuse::GrainLoop::stock;
+  }
+  return suffuse::GrainLoop::vector;
+}
+
 void require_a_readable_script(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "-in") != 0 && std::strcmp(argv[i], "-i") != 0) continue;
@@ -131,9 +144,10 @@ int run_script(int argc, char** argv, int rank) {
   try {
     require_a_readable_script(argc, argv);
     std::vector<char*> arguments = with_a_real_screen(argc, argv);
+    const suffuse::GrainLoop loop = take_grain_loop(arguments);
     add_script_folder(arguments, script_name(argc, argv));
     lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
-    suffuse::register_styles(lmp);
+    suffuse::register_styles(lmp, loop);
     suffuse::coupling::LbmCommand::add_to(lmp);
     lmp->input->file();
     suffuse::coupling::LbmCommand::remove_from(lmp);

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """stock_equivalence.py --liggghts PROGRAM --suffuse PROGRAM --mpirun SCRIPT --ranks N
 
-Runs in.stock_equivalence, which has no command of ours, with both programs and compares what they leave:
+Runs in.stock_equivalence, which has no command of ours, with both programs (suffuse with `-suffix off`, LIGGGHTS's own
+neighbour lists and contact loop) and compares what they leave:
 every thermo value (all but the processor time) and printed line of the log, and every byte of the other files.
 No tolerance: both programs run the same library, so that the smallest difference means that suffuse did something.
 """
@@ -17,8 +18,8 @@ WRITTEN = ["grains.dump", "grains.xyz", "averaged.txt", "restarted.dump"]
 FIRST_WORDS_OF_TIMINGS = ("Loop", "Pair", "Neigh", "Comm", "Outpt", "Other", "Fix", "Modify")
 
 
-def run(program, options, folder):
-    command = [options.mpirun, str(options.ranks), program, "-in", str(SCRIPT), "-var", "steps", "500", "-log", "log.run", "-echo", "none"]
+def run(program, options, folder, extra=()):
+    command = [options.mpirun, str(options.ranks), program, *extra, "-in", str(SCRIPT), "-var", "steps", "500", "-log", "log.run", "-echo", "none"]
     with open(folder / "screen", "w") as screen:
         code = subprocess.run(command, cwd=folder, stdout=screen, stderr=subprocess.STDOUT).returncode
     if code:
@@ -54,7 +55,7 @@ def main():
         stock.mkdir()
         ours.mkdir()
         run(options.liggghts, options, stock)
-        run(options.suffuse, options, ours)
+        run(options.suffuse, options, ours, ["-suffix", "off"])
 
         (expected, rows), (found, _) = comparable_log(stock), comparable_log(ours)
         # The script prints thermo every 100 of some 3,000 steps; fewer rows would mean that it ended early.

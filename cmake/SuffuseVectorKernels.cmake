@@ -1,0 +1,30 @@
+# suffuse_vector_kernels(NAME n SOURCES ... [INCLUDES ...] [LINKS ...] [OPTIONS ...] OBJECTS var DEFINITIONS var)
+# Compiles the sources once for each instruction set that `suffuse::InstructionSet` knows, in the namespace that
+# SUFFUSE_KERNEL_NAMESPACE names; the objects come in OBJECTS, what the code that chooses among them must be compiled
+# with in DEFINITIONS. Optimised even in debug builds. Scheduled for processors that have these instructions, not for
+# all x86 (docs/decisions/fluid-kernels.md).
+function(suffuse_vector_kernels)
+  cmake_parse_arguments(ARG "" "NAME;OBJECTS;DEFINITIONS" "SOURCES;INCLUDES;LINKS;OPTIONS" ${ARGN})
+  set(instruction_sets portable)
+  set(definitions)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    list(APPEND instruction_sets avx2 avx512)
+    set(definitions SUFFUSE_HAVE_X86_KERNELS)
+  endif()
+  set(flags_avx2 -mavx2 -mfma -mtune=skylake)
+  set(flags_avx512 -mavx512f -mavx512vl -mavx512dq -mavx512bw -mfma -mtune=skylake-avx512)
+  set(objects)
+  foreach(instruction_set ${instruction_sets})
+    set(target suffuse_${ARG_NAME}_${instruction_set})
+    add_library(${target} OBJECT ${ARG_SOURCES})
+    target_include_directories(${target} PRIVATE ${ARG_INCLUDES})
+    target_link_libraries(${target} PRIVATE ${ARG_LINKS})
+    suffuse_compile_options(${target})
+    target_compile_definitions(${target} PRIVATE SUFFUSE_KERNEL_NAMESPACE=${instruction_set})
+    target_compile_options(${target} PRIVATE -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros
+      -ffp-contract=fast -Wno-psabi ${ARG_OPTIONS} ${flags_${instruction_set}})
+    list(APPEND objects $<TARGET_OBJECTS:${target}>)
+  endforeach()
+  set(${ARG_OBJECTS} ${objects} PARENT_SCOPE)
+  set(${ARG_DEFINITIONS} ${definitions} PARENT_SCOPE)
+endfunction()
