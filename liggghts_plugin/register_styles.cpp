@@ -13,13 +13,13 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
+#include "replacements/fix_contact_history_vector.h"
+#include "replacements/neighbor_by_size.h"
+#include "replacements/pair_gran_vector.h"
 #include "run.h"
 #include "signal_handling.h"
 #include "styles/all_styles.h"
 #include "styles/early_stop.h"
-#include "styles/fix_contact_history_vector.h"
-#include "styles/neighbor_by_size.h"
-#include "styles/pair_gran_vector.h"
 
 namespace {
 

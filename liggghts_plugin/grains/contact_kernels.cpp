@@ -287,7 +287,9 @@ class Pass {
       note.pair = batch_.pair[c];
       for (int d = 0; d < 3; ++d) {
         note.force[d] = batch_.force[d][c];
-        note.torque[d] = -batch_.arm_first[c] * batch_.moment[d][c] - (rolls ? batch_.rolling[d][c] : 0);
+        const double roll = rolls ? batch_.rolling[d][c] : 0;
+        note.torque[d] = -batch_.arm_first[c] * batch_.moment[d][c] - roll;
+        note.torque_on_second[d] = -batch_.arm_second[c] * batch_.moment[d][c] + roll;
       }
       output_.note(output_.listener, note);
     }

@@ -53,6 +53,7 @@ struct ContactNote {
   std::uint32_t pair;  ///< index of the candidate
   double force[3];     ///< on the first grain
   double torque[3];    ///< on the first grain
+  double torque_on_second[3];
 };
 
 /// What a pass adds to or writes; null pointers where nothing is wanted.

@@ -141,10 +141,11 @@ std::size_t reference_contact_pass(const CandidatePairs& candidates, const Grain
       if (both) output.grain_virial[6 * candidates.receiver[k] + d] += half;
     }
     if (output.note != nullptr) {
-      const Vec3 torque = -arm_i * moment - roll;
+      const Vec3 torque = -arm_i * moment - roll, other = -arm_j * moment + roll;
       output.note(output.listener, {static_cast<std::uint32_t>(k),
                                     {force.x(), force.y(), force.z()},
-                                    {torque.x(), torque.y(), torque.z()}});
+                                    {torque.x(), torque.y(), torque.z()},
+                                    {other.x(), other.y(), other.z()}});
     }
   }
   return touching;

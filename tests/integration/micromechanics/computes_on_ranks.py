@@ -42,14 +42,14 @@ WORDS = [f"c_{name}[{k + 1}]" for name, n in VECTORS.items() for k in range(n)] 
 # A shrinking box, so that grains, box and ghosts all move between the two outputs.
 RUN = f"""
 fix squeeze all deform 1 z trate -5 x trate 2 remap x
-dump contacts all local 40 contacts.NAME c_si[1] c_si[2] c_si[3] c_si[4] c_si[5] c_si[6]
+dump contacts all local 100 contacts.NAME c_si[1] c_si[2] c_si[3] c_si[4] c_si[5] c_si[6]
 dump_modify contacts format "%.17g %.17g %.17g %.17g %.0f %.0f"
-dump grains all custom 40 grains.NAME id c_z c_ap[1] c_ap[3] c_ah[3]
+dump grains all custom 100 grains.NAME id c_z c_ap[1] c_ap[3] c_ah[3]
 dump_modify grains format "%d %.17g %.17g %.17g %.17g" sort id
 thermo_style custom step {" ".join(WORDS)}
 thermo_modify format float %.17g
-thermo 40
-run 40
+thermo 100
+run 100
 """
 # Rounding only: sums of some 2000 terms in another order, and images of positions (see contact_scene). Components that
 # vanish but for cancellation are compared on the scale of what they cancel.

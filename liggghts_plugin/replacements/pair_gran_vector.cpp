@@ -12,7 +12,7 @@
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor_by_size.h"
-#include "style_support.h"
+#include "styles/style_support.h"
 #include "suffuse/common/error.h"
 #include "update.h"
 
@@ -329,6 +329,7 @@ void PairGranVector::choose_active() {
   active_motion_.clear();
   active_receiver_.clear();
   active_spring_.clear();
+  active_pair_.clear();
   const bool springy = law_.tangential == TangentialLaw::history;
   for (std::size_t k = 0; k < first_.size(); ++k) {
     const bool has_twin = twin_[k] != kNoTwin;
@@ -340,6 +341,7 @@ void PairGranVector::choose_active() {
     // Without a twin the other side of the pair is in another rank's list.
     active_receiver_.push_back(j < owned ? j : has_twin ? owner : nobody);
     active_spring_.push_back(springy ? static_cast<std::uint32_t>(k) : 0);
+    active_pair_.push_back(static_cast<std::uint32_t>(k));
   }
 }
 
@@ -408,9 +410,7 @@ void PairGranVector::force_pass(int vflag) {
   if (vflag != 0 && vflag_atom != 0) wanted.grain_virial = vatom[0];
   const bool advance = shearupdate_ != 0;
   suffuse::grains::contact_pass(
-      instruction_set_,
-      {active_first_.size(), active_first_.data(), active_second_.data(), active_motion_.data(),
-       active_receiver_.data(), active_spring_.data()},
+      instruction_set_, active_pairs(),
       {position_.data(), velocity_.data(), spin_.data(), material_.data()}, pass_settings(advance), springs_.data(),
       wanted);
   if (advance) {
@@ -427,46 +427,56 @@ void PairGranVector::force_pass(int vflag) {
 }
 
 /// For `compute pair/gran/local` and our own sampler: every listed pair that touches, in the order of the lists,
-/// with the springs as they stand there.
+/// with the springs as they stand there. Both sides of a pair across a periodic face are one contact here as in the
+/// force pass, so that a spring at its Coulomb limit is at the limit on both.
 void PairGranVector::sample_pass() {
   springs_to_lists();
   take_motion();
   const bool springy = law_.tangential == TangentialLaw::history;
   const std::size_t total = first_.size();
-  std::vector<suffuse::grains::Quad> springs(springy ? total : 1);
-  std::vector<double*> values(springy ? total : 0);
-  std::vector<int> motion(total);
-  std::vector<std::uint32_t> spring(total, 0);
+  std::vector<double*> values(springy ? total : 0, nullptr);
   std::size_t k = 0;
-  for (int ii = 0; ii < list->inum; ++ii) {
+  for (int ii = 0; springy && ii < list->inum; ++ii) {
     const int i = list->ilist[ii];
-    for (int jj = 0; jj < list->numneigh[i]; ++jj, ++k) {
-      motion[k] = owner_[static_cast<std::size_t>(second_[k])];
-      if (!springy) continue;
-      double* h = listgranhistory->firstdouble[i] + 3 * jj;
-      values[k] = h;
-      springs[k] = {h[0], h[1], h[2], pass_number_};
-      spring[k] = static_cast<std::uint32_t>(k);
-    }
+    for (int jj = 0; jj < list->numneigh[i]; ++jj, ++k) values[k] = listgranhistory->firstdouble[i] + 3 * jj;
   }
-  struct Listener {
-    PairGranVector* pair;
-    const std::vector<double*>* values;
-  } listener{this, &values};
+  std::vector<suffuse::grains::Quad> springs(springy ? total : 1);
+  for (k = 0; k < values.size(); ++k) springs[k] = {values[k][0], values[k][1], values[k][2], pass_number_};
+
+  std::vector<ContactNote> notes;
   suffuse::grains::PassOutput wanted;
-  wanted.listener = &listener;
-  wanted.note = [](void* to, const ContactNote& note) {
-    const auto& listening = *static_cast<Listener*>(to);
-    PairGranVector& pair = *listening.pair;
-    double* history_of = listening.values->empty() ? nullptr : (*listening.values)[note.pair];
-    pair.cpl_->add_pair(pair.first_[note.pair], pair.second_[note.pair], note.force[0], note.force[1], note.force[2],
-                        note.torque[0], note.torque[1], note.torque[2], history_of, nullptr);
-  };
-  suffuse::grains::contact_pass(instruction_set_,
-                                {total, first_.data(), second_.data(), motion.data(), motion.data(), spring.data()},
+  wanted.listener = &notes;
+  wanted.note = [](void* to, const ContactNote& note) { static_cast<std::vector<ContactNote>*>(to)->push_back(note); };
+  suffuse::grains::contact_pass(instruction_set_, active_pairs(),
                                 {position_.data(), velocity_.data(), spin_.data(), material_.data()},
                                 pass_settings(false), springs.data(), wanted);
+  tell_contacts(notes, values);
   cpl_pair_finalize();
+}
+
+void PairGranVector::tell_contacts(const std::vector<ContactNote>& notes, const std::vector<double*>& histories) {
+  struct Side {
+    std::uint32_t pair;
+    double sign;
+    const double *force, *torque;
+  };
+  std::vector<Side> sides;
+  sides.reserve(notes.size());
+  for (const ContactNote& note : notes) {
+    const std::uint32_t pair = active_pair_[note.pair];
+    sides.push_back({pair, 1, note.force, note.torque});
+    if (twin_[pair] != kNoTwin) sides.push_back({twin_[pair], -1, note.force, note.torque_on_second});
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.pair < b.pair; });
+  for (const Side& side : sides)
+    cpl_->add_pair(first_[side.pair], second_[side.pair], side.sign * side.force[0], side.sign * side.force[1],
+                   side.sign * side.force[2], side.torque[0], side.torque[1], side.torque[2],
+                   histories.empty() ? nullptr : histories[side.pair], nullptr);
+}
+
+suffuse::grains::CandidatePairs PairGranVector::active_pairs() const {
+  return {active_first_.size(),   active_first_.data(),    active_second_.data(),
+          active_motion_.data(),  active_receiver_.data(), active_spring_.data()};
 }
 
 /// LIGGGHTS's loop and ours from the same state; what goes on is ours.

@@ -57,6 +57,9 @@ class PairGranVector : public PairGranProxy {
   suffuse::grains::PassSettings pass_settings(bool advance) const;
   void force_pass(int vflag);
   void sample_pass();
+  /// Passes contacts on to whoever asked, each side that LIGGGHTS lists; `histories` holds each listed pair's values.
+  void tell_contacts(const std::vector<suffuse::grains::ContactNote>& notes, const std::vector<double*>& histories);
+  suffuse::grains::CandidatePairs active_pairs() const;
   void compare_with_stock(int eflag, int vflag);
 
   bool options_known_ = false;  ///< false after a restart until the script names the pair style again
@@ -80,7 +83,7 @@ class PairGranVector : public PairGranProxy {
   std::vector<std::uint32_t> twin_;          ///< the same pair, seen from the other side of a periodic face
   std::vector<suffuse::grains::Quad> springs_;
   std::vector<int> active_first_, active_second_, active_motion_, active_receiver_;
-  std::vector<std::uint32_t> active_spring_;
+  std::vector<std::uint32_t> active_spring_, active_pair_;
   std::vector<int> owner_;                   ///< of a copy whose original is on this rank: that one; else itself
   std::vector<int> foreign_;                 ///< copies of grains of other ranks
   std::vector<double> immovable_;            ///< factor of 1 / mass, one a grain
