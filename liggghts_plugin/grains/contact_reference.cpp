@@ -1,5 +1,6 @@
 // The laws once more, as LIGGGHTS's documentation has them, for one contact after the other.
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "grains/contact_pass.h"
