@@ -67,6 +67,7 @@ class Program:
 
     def __init__(self, suffuse, mpirun, ranks):
         self.suffuse, self.mpirun, self.ranks = suffuse, mpirun, ranks
+        self.extra = []  # options of every run
 
     def run(self, text, folder, name="scene", timeout=240):
         """Runs the script; returns (exit code, screen text)."""
@@ -84,7 +85,7 @@ class Program:
 
     def run_file(self, script, folder, words, log, timeout):
         launcher = [self.mpirun, str(self.ranks)] if self.ranks > 1 else []
-        command = launcher + [self.suffuse, "-in", str(script), "-log", log, "-echo", "none"] + words
+        command = launcher + [self.suffuse, "-in", str(script), "-log", log, "-echo", "none"] + self.extra + words
         done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=timeout)
         return done.returncode, done.stdout.decode(errors="replace")
 
