@@ -10,6 +10,7 @@
 #include "suffuse/analysis/record_table.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/micromechanics/slipping.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -94,7 +95,7 @@ void run(Options& options) {
   ProgressLine progress(is_long);
   std::optional<ContactMeasurer> measurer;
   Snapshot snapshot;
-  std::int64_t snapshots = 0;
+  std::int64_t snapshots = 0, above_limit = 0;
   while (series->next(snapshot)) {
     if (!measurer) {
       options.measures.split = options.split.value(snapshot.packing, kWho);
@@ -106,6 +107,8 @@ void run(Options& options) {
     if (json) json->write(record);
     if (pdf) write_force_pdf(*pdf, snapshot.step, options.measures.force_bins, measurer->forces());
     table.add(record);
+    above_limit +=
+        micromechanics::contacts_above_limit(snapshot.packing, sliding_tolerance(options.measures, snapshot));
     ++snapshots;
     progress.update(series->done(),
                     [&] { return fmt::format("{} snapshots, step {}", snapshots, snapshot.step); });
@@ -116,6 +119,12 @@ void run(Options& options) {
   if (pdf) pdf->commit();
   fmt::print("{}", table.text());
   if (const std::string notes = series->notes(); !notes.empty()) fmt::print("{}\n", notes);
+  if (above_limit > 0)
+    fmt::print(
+        "{} contacts have more tangential force than friction: sliding ones that the dump evaluated again, "
+        "damping, cohesion or another --friction. They count as sliding; the run knows better: dump compute "
+        "slipping/index beside the contacts and say --column friction_limit=c_ID[7] spring_force=c_ID[8]\n",
+        above_limit);
   if (options.split.text.empty() == false)
     fmt::print("alpha (h): by pair halves, the thesis's; alpha (c): by contact point\n");
 }

@@ -28,6 +28,12 @@ void ReadOptions::add_to(CLI::App& command, const std::string& files_option) {
   command.add_option("--friction", settings.friction, "coefficient of friction of the contacts")
       ->capture_default_str();
   command.add_option("--volume", volume, "volume of the sample, m³, where it is not the box");
+  command.add_flag("--bed", settings.bed,
+                   "the sample is the upright box that just holds the grains, not the simulation box");
+  command
+      .add_option("--region", region,
+                  "the sample lies between these bounds, m: XLO XHI YLO YHI ZLO ZHI; only its grains count")
+      ->expected(6);
 }
 
 std::unique_ptr<SnapshotSeries> ReadOptions::open() {
@@ -42,6 +48,16 @@ std::unique_ptr<SnapshotSeries> ReadOptions::open() {
     throw_user_error({settings.who, "--friction", fmt::format("{}", settings.friction), "be >= 0", ""});
   if (volume < 0) throw_user_error({settings.who, "--volume", fmt::format("{}", volume), "be > 0", "in m³"});
   if (volume > 0) settings.volume = volume;
+  if (!region.empty()) {
+    settings.region =
+        micromechanics::Box{{region[0], region[2], region[4]}, {region[1], region[3], region[5]}};
+    if ((settings.region->high - settings.region->low).minCoeff() <= 0)
+      throw_user_error({settings.who, "--region", fmt::format("{}", fmt::join(region, " ")),
+                        "rise from low to high along x, y and z", ""});
+  }
+  if (int{volume > 0} + int{settings.bed} + int{!region.empty()} > 1)
+    throw_user_error(
+        {settings.who, "sample", "more than one", "be given by one of --volume, --bed, --region", ""});
   return open_series(files, settings);
 }
 

@@ -15,6 +15,7 @@ struct ReadOptions {
   std::vector<std::string> renamed;  ///< "OURS=THEIRS"
   std::string pair_values;
   double volume = 0;
+  std::vector<double> region;  ///< nothing, or low and high along x, y, z, m
 
   void add_to(CLI::App& command);
   /// With the files under another name, such as an option's, which may be missing.

@@ -114,7 +114,7 @@ def draw(rows, options):
     for row in rows:
         row["x"] = float(row[f"{options.time}_s"])
     runs = [row for row in rows if row["status"] == "finished" and row["error"] and row["is_reference"] != "1"]
-    failed = [row for row in rows if row["status"] != "finished"]
+    failed = [row for row in rows if row["status"] != "finished"]  # those that were not steady too
     if not runs:
         sys.exit(f"{pathlib.Path(sys.argv[0]).name}: no run of {options.study} has an error")
     least = min((float(row["error"]) for row in runs if float(row["error"]) > 0), default=1e-6)
@@ -151,7 +151,7 @@ def draw(rows, options):
 
     entries = looks.legend() + [Line2D([], [], color="#606060", linewidth=1.0, marker="o", markersize=9, fillstyle="none", label="best so far")]
     if failed:
-        entries.append(Line2D([], [], linestyle="", marker="x", color="#606060", label="failed"))
+        entries.append(Line2D([], [], linestyle="", marker="x", color="#606060", label="failed or unsteady" if any(row["status"] == "unsteady" for row in failed) else "failed"))
     axes.legend(handles=entries, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), handletextpad=0.2)
     label(axes, [(row, row["label"]) for row in sorted(runs, key=lambda row: row["y"])] if singly else front_labels(front[::-1], options.variables))
     style.save(figure, options.output)

@@ -11,9 +11,10 @@
 namespace suffuse::analysis {
 namespace {
 
-const std::vector<std::string> kContactNames{"x1",  "y1",  "z1",  "x2",    "y2",      "z2",  "id1",
-                                             "id2", "fx",  "fy",  "fz",    "fnx",     "fny", "fnz",
-                                             "ftx", "fty", "ftz", "delta", "friction"};
+const std::vector<std::string> kContactNames{
+    "x1",          "y1",  "z1",  "x2",  "y2",  "z2",  "id1", "id2",   "fx",       "fy",
+    "fz",          "fnx", "fny", "fnz", "ftx", "fty", "ftz", "delta", "friction", "friction_limit",
+    "spring_force"};
 const std::vector<std::string> kGrainNames{"id", "radius", "diameter", "x", "y", "z"};
 
 struct PairWord {

@@ -97,7 +97,7 @@ void add_reduction(Record& record, const Packing& packing, const std::optional<d
 }
 
 void add_sliding(Record& record, const Packing& packing, const Coordination& z, double tolerance) {
-  const Sliding s = sliding(sliding_sums(packing, {tolerance, true}));
+  const Sliding s = sliding(sliding_sums(packing, {tolerance, true, false}));
   const ConstraintRatio r = constraint_ratio(z, s.share);
   add(record, {{"sliding_share", s.share},
                {"mean_slipping_index", s.mean_slipping_index},
@@ -167,6 +167,7 @@ Record ContactMeasurer::measure(const Snapshot& snapshot) {
                {"strong_deviator_share", strong.deviator_share},
                {"mean_normal_force_n", forces_.mean_normal},
                {"mean_tangential_force_n", forces_.mean_tangential},
+               {"tensile_share", forces_.tensile_share},
                {"normal_force_variation", forces_.coefficient_of_variation},
                {"force_tail_exponent", forces_.tail_exponent}});
   return record;

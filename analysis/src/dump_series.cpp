@@ -80,10 +80,12 @@ double DumpSeries::done() const {
 }
 
 std::string DumpSeries::notes() const {
-  if (alone_grains_ + alone_contacts_ == 0) return {};
-  return fmt::format(
-      "left out: {} snapshots of grains without contacts of the same step, {} of contacts without grains",
-      alone_grains_, alone_contacts_);
+  std::string left_out;
+  if (alone_grains_ + alone_contacts_ > 0)
+    left_out = fmt::format(
+        "left out: {} snapshots of grains without contacts of the same step, {} of contacts without grains",
+        alone_grains_, alone_contacts_);
+  return both_notes(left_out, sample_.note());
 }
 
 bool DumpSeries::find_common_step() {
@@ -117,6 +119,7 @@ bool DumpSeries::next(Snapshot& snapshot) {
   snapshot.time.reset();
   read_grains(snapshot.packing);
   read_contacts(snapshot);
+  sample_.restrict_to_region(snapshot.packing);
   return true;
 }
 
@@ -133,8 +136,6 @@ void DumpSeries::read_grains(Packing& packing) {
   packing.grains.reserve(static_cast<std::size_t>(header.rows));
   packing.box_low = header.box_low;
   packing.box_high = header.box_high;
-  const Vec3 box = header.box_high - header.box_low;
-  packing.volume = settings_.volume.value_or(box.prod());
   double largest = 0;
   grains_.file().rows(plan.place_of_column, grain_place::count, [&](std::span<const double> row) {
     if (row[id] < 1 || row[id] != std::floor(row[id]))
@@ -145,6 +146,7 @@ void DumpSeries::read_grains(Packing& packing) {
                               plan.has[radius] ? row[radius] : row[diameter] / 2,
                               grains_have_positions_ ? vector_at(row, x) : Vec3(Vec3::Zero())});
   });
+  sample_.set_volume(packing, {header.periodic[0], header.periodic[1], header.periodic[2]});
   const std::string problem = problem_of_grains(packing);
   if (!problem.empty())
     grains_.file().complain(fmt::format("at step {} {}", header.step, problem), "lengths are in metres");
@@ -186,6 +188,8 @@ Contact DumpSeries::contact_of(std::span<const double> row, const ColumnPlan& pl
   const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
   const Grain& second = packing.grains[static_cast<std::size_t>(contact.second)];
   contact.friction = plan.has[friction] ? row[friction] : settings_.friction;
+  if (plan.has[friction_limit]) contact.friction_limit = row[friction_limit];
+  if (plan.has[spring_force]) contact.spring_force = row[spring_force];
   RawContact raw;
   raw.separation = plan.has_vector(x1) && plan.has_vector(x2) ? Vec3(vector_at(row, x1) - vector_at(row, x2))
                                                               : Vec3(first.position - second.position);

@@ -77,8 +77,9 @@ double Hdf5Series::done() const {
 }
 
 std::string Hdf5Series::notes() const {
-  if (left_out_ == 0) return {};
-  return fmt::format("left out: {} snapshots without contacts", left_out_);
+  return both_notes(
+      left_out_ > 0 ? fmt::format("left out: {} snapshots without contacts", left_out_) : std::string(),
+      sample_.note());
 }
 
 std::vector<double> Hdf5Series::numbers(const std::string& dataset, std::size_t columns) const {
@@ -120,16 +121,21 @@ bool Hdf5Series::next(Snapshot& snapshot) {
   }
   snapshot.six_digits = false;
   snapshot.packing = {};
+  const std::array<bool, 3> periodic = read_box(snapshot.packing);
   Vec3 period = Vec3::Zero();
-  read_box(snapshot.packing, period);
+  for (int axis = 0; axis < 3; ++axis)
+    if (periodic[static_cast<std::size_t>(axis)])
+      period[axis] = snapshot.packing.box_high[axis] - snapshot.packing.box_low[axis];
   read_grains(snapshot.packing);
+  sample_.set_volume(snapshot.packing, periodic);
   const std::string problem = problem_of_grains(snapshot.packing);
   if (!problem.empty()) complain(problem, "lengths are in metres");
   read_contacts(snapshot.packing, period);
+  sample_.restrict_to_region(snapshot.packing);
   return true;
 }
 
-void Hdf5Series::read_box(Packing& packing, Vec3& period) const {
+std::array<bool, 3> Hdf5Series::read_box(Packing& packing) const {
   if (file_->has(group_ + "/box")) {
     const std::vector<double> box = numbers("box", 3);
     if (box.size() != 6) complain("box has not two corners", "write the low and the high one");
@@ -137,18 +143,15 @@ void Hdf5Series::read_box(Packing& packing, Vec3& period) const {
     packing.box_high = Vec3(box[3], box[4], box[5]);
     if ((packing.box_high - packing.box_low).minCoeff() <= 0)
       complain("the corners of the box do not rise", "write the low corner first");
-  } else if (settings_.volume) {
+  } else if (settings_.volume || settings_.region || settings_.bed) {
     packing.box_high = Vec3::Constant(std::numeric_limits<double>::infinity());
   } else {
-    complain("has no box", "give the volume of the sample: --volume M3");
+    complain("has no box", "give the volume of the sample: --volume M3, --bed or --region");
   }
-  packing.volume = settings_.volume.value_or((packing.box_high - packing.box_low).prod());
-  if (!file_->has(group_ + "/periodic")) return;
+  if (!file_->has(group_ + "/periodic")) return {};
   const std::vector<double> periodic = numbers("periodic", 1);
   if (periodic.size() != 3) complain("periodic has not three values", "write 0 or 1 for x, y, z");
-  for (int axis = 0; axis < 3; ++axis)
-    if (periodic[static_cast<std::size_t>(axis)] != 0)
-      period[axis] = packing.box_high[axis] - packing.box_low[axis];
+  return {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0};
 }
 
 void Hdf5Series::read_grains(Packing& packing) const {
@@ -163,12 +166,15 @@ void Hdf5Series::read_grains(Packing& packing) const {
 
 void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
   const std::vector<double> ids = numbers("contacts/ids", 2), force = numbers("contacts/force", 3);
-  std::vector<double> branch, friction;
+  std::vector<double> branch, friction, limit, spring;
   if (file_->has(group_ + "/contacts/branch")) branch = numbers("contacts/branch", 3);
   if (file_->has(group_ + "/contacts/friction")) friction = numbers("contacts/friction", 1);
+  if (file_->has(group_ + "/contacts/friction_limit")) limit = numbers("contacts/friction_limit", 1);
+  if (file_->has(group_ + "/contacts/spring_force")) spring = numbers("contacts/spring_force", 1);
   const std::size_t count = ids.size() / 2;
   if (force.size() != 3 * count || (!branch.empty() && branch.size() != 3 * count) ||
-      (!friction.empty() && friction.size() != count))
+      (!friction.empty() && friction.size() != count) || (!limit.empty() && limit.size() != count) ||
+      (!spring.empty() && spring.size() != count))
     complain("the arrays of the contacts have different lengths", "is the file whole?");
   std::unordered_map<std::int64_t, int> index;
   for (std::size_t i = 0; i < packing.grains.size(); ++i)
@@ -188,6 +194,8 @@ void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
     const Grain& first = packing.grains[static_cast<std::size_t>(contact.first)];
     const Grain& second = packing.grains[static_cast<std::size_t>(contact.second)];
     contact.friction = friction.empty() ? settings_.friction : friction[c];
+    if (!limit.empty()) contact.friction_limit = limit[c];
+    if (!spring.empty()) contact.spring_force = spring[c];
     RawContact raw;
     raw.separation = branch.empty() ? Vec3(first.position - second.position)
                                     : Vec3(branch[3 * c], branch[3 * c + 1], branch[3 * c + 2]);

@@ -86,8 +86,9 @@ std::string problem_of_grains(const micromechanics::Packing& packing) {
   }
   if (solids > packing.volume)
     return fmt::format(
-        "the grains have {:.4g} m³, the sample {:.4g} m³: units differ, or the volume is wrong", solids,
-        packing.volume);
+        "the grains have {:.4g} m³, the sample {:.4g} m³: units differ, or the volume is wrong (of a "
+        "shrink-wrapped box: say --bed)",
+        solids, packing.volume);
   return {};
 }
 

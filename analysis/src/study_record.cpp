@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
@@ -17,15 +18,40 @@ namespace {
 namespace files = std::filesystem;
 using Status = RunRecord::Status;
 
-constexpr std::pair<Status, const char*> kNames[] = {
-    {Status::finished, "finished"}, {Status::failed, "failed"}, {Status::too_long, "too long"}};
-constexpr std::size_t kLongestReason = 400;
+constexpr std::pair<Status, const char*> kNames[] = {{Status::finished, "finished"},
+                                                     {Status::unsteady, "unsteady"},
+                                                     {Status::failed, "failed"},
+                                                     {Status::too_long, "too long"}};
+constexpr std::size_t kLongestReason = 400, kLongestNotes = 1000;
+constexpr const char* kNoteMark = "note: ";
+constexpr const char* kUnsteadyMark = "lbm run: not yet steady";
 
 std::string path_in(const std::string& folder) {
   return (files::path(folder) / "run.json").string();
 }
 
+/// What a run that ended as it should says of itself.
+void read_notes(RunRecord& record, const std::string& log) {
+  std::ifstream stream(log);
+  std::set<std::string> known;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with(kUnsteadyMark)) {
+      record.status = Status::unsteady;
+      record.reason = line.substr(std::strlen("lbm run: "));
+    }
+    const std::size_t at = line.find(kNoteMark);
+    if (at == line.npos || (at > 0 && line[at - 1] != ' ')) continue;
+    const std::string note = line.substr(at + std::strlen(kNoteMark));
+    if (known.insert(note).second) record.notes += (record.notes.empty() ? "" : "; ") + note;
+  }
+  record.notes = record.notes.substr(0, kLongestNotes);
+}
+
 }  // namespace
+
+bool has_results(const RunRecord& record) {
+  return record.status == Status::finished || record.status == Status::unsteady;
+}
 
 const char* to_string(Status status) {
   for (const auto& [known, name] : kNames)
@@ -37,6 +63,7 @@ void write_record(const std::string& folder, const RunRecord& record) {
   SafeFile file(path_in(folder), "suffuse-study");
   file.write(nlohmann::ordered_json{{"status", to_string(record.status)},
                                     {"reason", record.reason},
+                                    {"notes", record.notes},
                                     {"wall_s", record.wall},
                                     {"core_s", record.core},
                                     {"other_cores", record.other_cores},
@@ -61,6 +88,10 @@ std::optional<RunRecord> read_record(const std::string& folder, const std::strin
     record.wall = json.at("wall_s").get<double>();
     record.core = json.at("core_s").get<double>();
     record.other_cores = json.at("other_cores").get<double>();
+    if (json.contains("notes"))
+      record.notes = json["notes"].get<std::string>();
+    else if (record.status == Status::finished)  // kept before notes were
+      read_notes(record, (files::path(folder) / kRunLog).string());
     return record;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;  // no record of ours: the run is done again
@@ -96,6 +127,7 @@ RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit,
   }
   if (end.how == ProcessEnd::How::exited && end.code == 0) {
     record.status = Status::finished;
+    read_notes(record, log);
     return record;
   }
   record.reason = last_error_in(log);

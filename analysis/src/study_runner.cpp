@@ -23,7 +23,6 @@ namespace {
 namespace files = std::filesystem;
 
 constexpr const char* kWho = "suffuse-study";
-constexpr const char* kLog = "log.txt";
 
 std::string find_program(const std::string& given) {
   if (!given.empty()) {
@@ -119,7 +118,7 @@ class Runner {
   std::optional<RunRecord> done_before(const std::string& folder, const std::string& settings) const {
     if (!settings_.resume) return std::nullopt;
     std::optional<RunRecord> record = read_record(folder, settings);
-    if (record && settings_.retry_failed && record->status != RunRecord::Status::finished) record.reset();
+    if (record && settings_.retry_failed && !has_results(*record)) record.reset();
     return record;
   }
 
@@ -164,9 +163,9 @@ class Runner {
     files::remove_all(folder, problem);
     if (!problem) files::create_directories(folder, problem);
     if (problem) throw_user_error({kWho, "folder", folder, "be writable", problem.message()});
-    const ProcessEnd end = run_timed(words, folder, kLog, study_.time_limit);
+    const ProcessEnd end = run_timed(words, folder, kRunLog, study_.time_limit);
     if (end.how == ProcessEnd::How::interrupted) return std::nullopt;
-    RunRecord record = record_of(end, (files::path(folder) / kLog).string(), study_.time_limit, settings);
+    RunRecord record = record_of(end, (files::path(folder) / kRunLog).string(), study_.time_limit, settings);
     write_record(folder, record);
     return record;
   }
@@ -182,9 +181,9 @@ class Runner {
     record = execute(folder, command(study_.preparation->script, study_.preparation->variables), settings);
     if (!record) return;  // interrupted
     fmt::print("{}\n", duration_text(record->wall));
-    if (record->status != RunRecord::Status::finished)
+    if (!has_results(*record))
       throw_user_error(
-          {study_.file, "[prepare]", record->reason, "finish", "its log is " + folder + "/" + kLog});
+          {study_.file, "[prepare]", record->reason, "finish", "its log is " + folder + "/" + kRunLog});
   }
 
   void run_case(std::size_t number) {
@@ -203,7 +202,7 @@ class Runner {
       }
     }
     StudyRow row{run, *record, {}, {}, {}, false};
-    if (record->status == RunRecord::Status::finished) {
+    if (has_results(*record)) {
       try {
         read_values(folder, row);
       } catch (const UserError&) {

@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/record_table.h"
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
@@ -54,7 +55,7 @@ void StudyTable::add(StudyRow row) {
 
 bool StudyTable::none_finished() const {
   return std::none_of(rows_.begin(), rows_.end(),
-                      [](const StudyRow& row) { return row.record.status == RunRecord::Status::finished; });
+                      [](const StudyRow& row) { return has_results(row.record); });
 }
 
 double StudyTable::seconds(const StudyRow& row) const {
@@ -64,7 +65,8 @@ double StudyTable::seconds(const StudyRow& row) const {
 std::optional<double> StudyTable::target_of(std::size_t quantity) const {
   if (study_.quantities[quantity].by_finest)
     for (const StudyRow& row : rows_)
-      if (row.run.is_reference) return row.values[quantity];
+      if (row.run.is_reference && row.record.status == RunRecord::Status::finished)
+        return row.values[quantity];
   return study_.quantities[quantity].reference;
 }
 
@@ -118,8 +120,9 @@ std::string StudyTable::finished_text() const {
   }
   for (const std::size_t i : by_time()) {
     const StudyRow& row = rows_[i];
-    if (row.record.status != RunRecord::Status::finished) continue;
-    Cells cells{row.on_front ? "*" : row.run.is_reference ? "r" : ""};
+    if (!has_results(row.record)) continue;
+    const bool unsteady = row.record.status == RunRecord::Status::unsteady;
+    Cells cells{row.on_front ? "*" : unsteady ? "u" : row.run.is_reference ? "r" : ""};
     for (const auto& [name, value] : row.run.swept) cells.push_back(value);
     cells.push_back(fmt::format("{:.3g}", row.record.wall));
     cells.push_back(fmt::format("{:.3g}", row.record.core));
@@ -149,13 +152,32 @@ std::string StudyTable::failed_text() const {
   return text;
 }
 
+/// Notes and the number of runs that say them.
+std::string StudyTable::notes_text() const {
+  std::string text;
+  std::vector<std::string> told;
+  for (const StudyRow& row : rows_) {
+    const std::string& notes = row.record.notes;
+    if (notes.empty() || std::find(told.begin(), told.end(), notes) != told.end()) continue;
+    told.push_back(notes);
+    const auto same = std::count_if(rows_.begin(), rows_.end(),
+                                    [&](const StudyRow& other) { return other.record.notes == notes; });
+    text += fmt::format("noted by {}: {}\n", count_text(same, "run"), notes);
+  }
+  return text;
+}
+
 std::string StudyTable::text() const {
   const bool by_wall = time_ == StudyTime::wall;
   std::string text = finished_text();
   if (judged() > 0)
     text += fmt::format("*: no other run is both faster ({} time) and more accurate{}\n",
                         by_wall ? "wall" : "core", study_.finest.empty() ? "" : "; r: the reference");
+  if (std::any_of(rows_.begin(), rows_.end(),
+                  [](const StudyRow& row) { return row.record.status == RunRecord::Status::unsteady; }))
+    text += "u: not steady yet; takes no part, nor is it a reference\n";
   text += failed_text();
+  text += notes_text();
   double other = 0;
   for (const StudyRow& row : rows_) other = std::max(other, row.record.other_cores);
   if (other > kOtherLoad && by_wall)
@@ -198,7 +220,7 @@ void StudyTable::write_csv(const std::string& path) const {
   line += "status,wall_s,core_s,other_cores";
   for (const StudyQuantity& quantity : study_.quantities)
     line += fmt::format(",{0},{0}_reference,{0}_error", csv_text(quantity.name));
-  file.write(line + ",error,front,is_reference,reason\n");
+  file.write(line + ",error,front,is_reference,reason,notes\n");
   for (const StudyRow& row : rows_) {
     line.clear();
     for (const auto& [name, value] : row.run.swept) line += csv_text(value) + ',';
@@ -208,8 +230,9 @@ void StudyTable::write_csv(const std::string& path) const {
     for (std::size_t k = 0; k < study_.quantities.size(); ++k)
       line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target_of(k), ""),
                           row.errors[k] ? fmt::format("{:.6g}", *row.errors[k]) : "");
-    line += fmt::format(",{},{:d},{:d},{}\n", row.error ? fmt::format("{:.6g}", *row.error) : "",
-                        row.on_front, row.run.is_reference, csv_text(row.record.reason));
+    line +=
+        fmt::format(",{},{:d},{:d},{},{}\n", row.error ? fmt::format("{:.6g}", *row.error) : "", row.on_front,
+                    row.run.is_reference, csv_text(row.record.reason), csv_text(row.record.notes));
     file.write(line);
   }
   file.commit();

@@ -279,11 +279,11 @@ void LiggghtsPort::use_contacts() {
 }
 
 void LiggghtsPort::announce_contacts(int substeps) {
-  LAMMPS_NS::FixContactSampler::of(lmp_).request(lmp_->update->ntimestep + substeps);
+  LAMMPS_NS::FixContactSampler::of(lmp_).request(lmp_->update->ntimestep + substeps, true);
 }
 
 const micromechanics::Packing& LiggghtsPort::contacts() {
-  return LAMMPS_NS::FixContactSampler::of(lmp_).packing(fix_->groupbit);
+  return LAMMPS_NS::FixContactSampler::of(lmp_).packing_with_friction(fix_->groupbit);
 }
 
 std::array<bool, 3> LiggghtsPort::periodic() const {

@@ -99,13 +99,15 @@ void write_box(Hdf5File& file, const std::string& step, const GrainSnapshot& sna
 void write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
                     MPI_Comm communicator) {
   std::vector<std::int64_t> ids;
-  std::vector<double> force, branch, friction;
+  std::vector<double> force, branch, friction, limit, spring;
   for (const micromechanics::Contact& contact : network.contacts) {
     if (!is_counted(network, contact)) continue;
     ids.insert(ids.end(), {first_grain(network, contact).id, second_id(network, contact)});
     force.insert(force.end(), contact.force.begin(), contact.force.end());
     branch.insert(branch.end(), contact.branch.begin(), contact.branch.end());
     friction.push_back(contact.friction);
+    limit.push_back(contact.friction_limit);
+    spring.push_back(contact.spring_force);
   }
   file.create_group(step + "/contacts");
   RowWriter writer(file, step + "/contacts", rows_of(friction.size(), communicator));
@@ -113,6 +115,8 @@ void write_contacts(Hdf5File& file, const std::string& step, const micromechanic
   writer.table("force", 3, force);
   writer.table("branch", 3, branch);
   writer.scalars("friction", friction);
+  writer.scalars("friction_limit", limit);
+  writer.scalars("spring_force", spring);
 }
 
 std::string xdmf_attribute(const std::string& file, const std::string& group, const std::string& name,

@@ -31,6 +31,7 @@ ComputeConstraintRatio::ComputeConstraintRatio(LAMMPS* lmp_in, int& iarg, int na
     const std::string key = reader.word("keyword");
     if (!read_sliding_rule(key, reader, rule_)) reader.unknown(key, "tolerance, appendix");
   }
+  need_friction();
   declare_vector(6);
 }
 

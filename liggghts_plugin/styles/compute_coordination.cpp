@@ -15,8 +15,8 @@ ComputeCoordination::ComputeCoordination(LAMMPS* lmp_in, int& iarg, int narg, ch
     const std::string key = reader.word("keyword");
     if (key == "split")
       split_ = read_split(reader);
-    else
-      reader.unknown(key, "split");
+    else if (key == "walls" || !read_sample_word(key, reader))
+      reader.unknown(key, "split, region, bed");
   }
   declare_vector(17);
   peratom_flag = 1;
@@ -32,6 +32,7 @@ double ComputeCoordination::compute_scalar() {
 void ComputeCoordination::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();
+  sample_.tell_if_not_the_bed(sample, {true, true, true});
   const CoordinationSums sums = over_ranks(coordination_sums(sample, split_));
   const Coordination z = coordination(sums, sample.volume);
   values_ = {
@@ -44,7 +45,7 @@ void ComputeCoordination::compute_vector() {
 
 void ComputeCoordination::compute_peratom() {
   invoked_peratom = update->ntimestep;
-  const std::vector<int> contacts = contacts_per_grain(packing());
+  const std::vector<int> contacts = contacts_per_grain(packing_of_group());
   const std::vector<int>& index = FixContactSampler::of(lmp).grain_index(groupbit);
   contacts_of_atom_.assign(static_cast<std::size_t>(atom->nmax), 0.0);
   for (std::size_t i = 0; i < index.size(); ++i)

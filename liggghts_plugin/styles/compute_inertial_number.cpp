@@ -34,10 +34,11 @@ ComputeInertialNumber::ComputeInertialNumber(LAMMPS* lmp_in, int& iarg, int narg
     } else if (key == "rate") {
       rate_given_ = !reader.accept("measured");
       if (rate_given_) rate_ = reader.number("rate");
-    } else {
-      reader.unknown(key, "diameter, rate");
+    } else if (!read_sample_word(key, reader)) {
+      reader.unknown(key, std::string("diameter, rate, ") + suffuse::SampleChoice::kWords);
     }
   }
+  sample_is_read();
   declare_vector(5);
 }
 
@@ -84,6 +85,7 @@ double ComputeInertialNumber::compute_scalar() {
 void ComputeInertialNumber::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();
+  sample_.tell_if_not_the_bed(sample, {true, true, true});
   if (!rate_given_) measure_rate();
   InertialState state;
   state.strain_rate = rate_;

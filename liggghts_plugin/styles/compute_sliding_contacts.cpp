@@ -28,6 +28,7 @@ ComputeSlidingContacts::ComputeSlidingContacts(LAMMPS* lmp_in, int& iarg, int na
     const std::string key = reader.word("keyword");
     if (!read_sliding_rule(key, reader, rule_)) reader.unknown(key, "tolerance, appendix");
   }
+  need_friction();
   declare_vector(4);
 }
 

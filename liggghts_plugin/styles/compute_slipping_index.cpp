@@ -8,13 +8,14 @@ using namespace LAMMPS_NS;
 using namespace suffuse::micromechanics;
 
 namespace {
-constexpr std::size_t kColumns = 6;
+constexpr std::size_t kColumns = 8;
 }
 
 ComputeSlippingIndex::ComputeSlippingIndex(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   if (!reader.done()) reader.unknown(reader.word("keyword"), "(none)");
+  need_friction();
   local_flag = 1;
   size_local_cols = static_cast<int>(kColumns);
 }
@@ -30,7 +31,9 @@ void ComputeSlippingIndex::compute_local() {
                                   normal_force(contact),
                                   tangential_force(contact),
                                   static_cast<double>(first_grain(packing, contact).id),
-                                  static_cast<double>(second_id(packing, contact))};
+                                  static_cast<double>(second_id(packing, contact)),
+                                  contact.friction_limit,
+                                  contact.spring_force};
     columns_.insert(columns_.end(), row, row + kColumns);
   }
   contact_rows_.clear();

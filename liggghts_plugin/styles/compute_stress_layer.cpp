@@ -13,6 +13,7 @@ using namespace suffuse::micromechanics;
 ComputeStressLayer::ComputeStressLayer(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
+  count_walls_by_default();
   grid_.axis = read_axis(reader);
   grid_.layers = static_cast<int>(reader.positive_integer("number of layers"));
   while (!reader.done()) {
@@ -38,27 +39,30 @@ ComputeStressLayer::ComputeStressLayer(LAMMPS* lmp_in, int& iarg, int narg, char
       grid_.numbered_from_top = end == "top";
     } else if (key == "by") {
       arm_ = read_arm(reader);
-    } else {
-      reader.unknown(key, "bounds, trim, share, from, by");
+    } else if (!read_sample_word(key, reader)) {
+      reader.unknown(key, std::string("bounds, trim, share, from, by, ") + suffuse::SampleChoice::kWords);
     }
   }
+  sample_is_read();
   declare_vector(5);
   declare_array(grid_.layers, 12);
 }
 
 void ComputeStressLayer::init() {
   ContactCompute::init();
-  place_grid(suffuse::Vec3(domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]),
-             suffuse::Vec3(domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]));
+  sample_.require_block();
+  const Box box{{domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]},
+                {domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]}};
+  place_grid(box, box.high - box.low);
 }
 
-void ComputeStressLayer::place_grid(const suffuse::Vec3& low, const suffuse::Vec3& high) {
+void ComputeStressLayer::place_grid(const Box& sample, const suffuse::Vec3& box_length) {
+  grid_.column = sample;
   for (int side = 0; side < 3; ++side) {
-    grid_.period[side] = domain->periodicity[side] != 0 ? high[side] - low[side] : 0;
-    grid_.column.low[side] = low[side];
-    grid_.column.high[side] = high[side];
+    grid_.period[side] = domain->periodicity[side] != 0 ? box_length[side] : 0;
     if (side == grid_.axis) continue;
-    grid_.cut[static_cast<std::size_t>(side)] = trim_ > 0;
+    // A region may end within the bed; box and bed have the grains' own width.
+    grid_.cut[static_cast<std::size_t>(side)] = trim_ > 0 || sample_.is_region();
     grid_.column.low[side] += trim_;
     grid_.column.high[side] -= trim_;
     if (grid_.column.high[side] <= grid_.column.low[side])
@@ -72,9 +76,13 @@ void ComputeStressLayer::place_grid(const suffuse::Vec3& low, const suffuse::Vec
 }
 
 std::vector<LayerSums> ComputeStressLayer::sums() {
-  const Packing& sample = packing();
-  place_grid(sample.box_low, sample.box_high);
-  std::vector<LayerSums> layers = layer_sums(sample, grid_, arm_);
+  const Packing& group_packing =
+      packing_of_group();  // layers cut grains: those outside the sample matter too
+  std::array<bool, 3> axes{trim_ <= 0, trim_ <= 0, trim_ <= 0};
+  axes[static_cast<std::size_t>(grid_.axis)] = !bounds_given_;
+  sample_.tell_if_not_the_bed(group_packing, axes);
+  place_grid(sample_.bounds(group_packing), group_packing.box_high - group_packing.box_low);
+  std::vector<LayerSums> layers = layer_sums(group_packing, grid_, arm_);
   suffuse::sum_over_ranks(lmp, as_doubles(layers));
   return layers;
 }

@@ -15,8 +15,9 @@ ComputeStyle(stress/layer,ComputeStressLayer)
 namespace LAMMPS_NS {
 
 /// `compute ID group stress/layer AXIS N [bounds LO HI] [trim DISTANCE] [share volume|centre] [from
-/// top|bottom] [by contact_point|pair_halves]`: stress, void ratio and coordination of N layers along an axis
-/// (global array, one row a layer; global vector of the whole column). Formulas: micromechanics/layers.h.
+/// top|bottom] [by contact_point|pair_halves] [region ID | bed] [walls yes|no]`: stress, void ratio and
+/// coordination of N layers along an axis (global array, one row a layer; global vector of the whole column).
+/// Formulas: micromechanics/layers.h.
 class ComputeStressLayer : public ContactCompute {
  public:
   ComputeStressLayer(LAMMPS* lmp, int& iarg, int narg, char** arg);
@@ -26,8 +27,8 @@ class ComputeStressLayer : public ContactCompute {
   void compute_array() override;
 
  private:
-  /// Puts the layers into a box with these corners.
-  void place_grid(const suffuse::Vec3& low, const suffuse::Vec3& high);
+  /// Puts the layers into the sample.
+  void place_grid(const suffuse::micromechanics::Box& sample, const suffuse::Vec3& box_length);
   std::vector<suffuse::micromechanics::LayerSums> sums();
 
   suffuse::micromechanics::LayerGrid grid_;

@@ -27,9 +27,10 @@ ComputeStressReduction::ComputeStressReduction(LAMMPS* lmp_in, int& iarg, int na
       split_ = read_split(reader);
     else if (key == "by")
       arm_ = read_arm(reader);
-    else
-      reader.unknown(key, "split, by");
+    else if (!read_sample_word(key, reader))
+      reader.unknown(key, std::string("split, by, ") + suffuse::SampleChoice::kWords);
   }
+  sample_is_read();
   if (split_.diameter <= 0)
     suffuse::throw_user_error({who(), "split", "nothing", "be given",
                                "add `split DIAMETER`: grains of a smaller diameter are the fines"});
@@ -47,6 +48,8 @@ double ComputeStressReduction::compute_scalar() {
 void ComputeStressReduction::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();
+  sample_.tell_if_not_the_bed(sample, {true, true, true});
+  sample_.tell_if_walls_are_left_out();
   const StressReduction result =
       stress_reduction(over_ranks(stress_reduction_sums(sample, split_, arm_)), sample.volume);
   values_ = {result.shire,
@@ -62,7 +65,7 @@ void ComputeStressReduction::compute_vector() {
 
 void ComputeStressReduction::compute_peratom() {
   invoked_peratom = update->ntimestep;
-  const std::vector<suffuse::Mat3> stress = grain_stress_times_volume(packing(), arm_);
+  const std::vector<suffuse::Mat3> stress = grain_stress_times_volume(packing_of_group(), arm_);
   const std::vector<int>& index = FixContactSampler::of(lmp).grain_index(groupbit);
   const auto rows = static_cast<std::size_t>(atom->nmax);
   components_.assign(6 * rows, 0.0);

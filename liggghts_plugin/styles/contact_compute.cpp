@@ -6,7 +6,7 @@
 using namespace LAMMPS_NS;
 
 ContactCompute::ContactCompute(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
-    : Compute(lmp_in, iarg, narg, arg) {
+    : Compute(lmp_in, iarg, narg, arg), sample_(lmp_in, who()) {
   timeflag = 1;
   update_on_run_end_ = true;  // so that scripts can use the values after a run, in print or if
   FixContactSampler::of(lmp).add_user(this);
@@ -19,10 +19,48 @@ ContactCompute::~ContactCompute() {
 void ContactCompute::init() {
   // Group `all` may be filled later, by insertion; any other group without grains is a slip of the pen.
   if (igroup != 0) suffuse::require_grains_in_group(lmp, who(), igroup);
+  sample_.init();
+}
+
+bool ContactCompute::read_sample_word(const std::string& key, suffuse::ArgumentReader& reader) {
+  return sample_.read(key, reader);
+}
+
+void ContactCompute::count_walls_by_default() {
+  sample_.walls = true;
+}
+
+void ContactCompute::sample_is_read() {
+  if (sample_.walls) FixContactSampler::of(lmp).add_wall_user(this);
+}
+
+const suffuse::micromechanics::Packing& ContactCompute::packing_of_group() {
+  FixContactSampler& sampler = FixContactSampler::of(lmp);
+  const auto& own = needs_friction_ ? sampler.packing_with_friction(groupbit) : sampler.packing(groupbit);
+  if (!sample_.walls) return own;
+  const auto walls = sampler.walls(groupbit);  // may sample, and so raise the generation
+  if (group_generation_ != sampler.generation()) {
+    group_ = own;
+    group_.walls = walls;
+    group_generation_ = sampler.generation();
+  }
+  return group_;
 }
 
 const suffuse::micromechanics::Packing& ContactCompute::packing() {
-  return FixContactSampler::of(lmp).packing(groupbit);
+  const auto& group_packing = packing_of_group();
+  if (sample_.is_whole_box()) return group_packing;
+  const std::int64_t generation = FixContactSampler::of(lmp).generation();
+  if (part_generation_ != generation) {
+    part_ = sample_.part_of(group_packing);
+    part_generation_ = generation;
+  }
+  return part_;
+}
+
+void ContactCompute::need_friction() {
+  needs_friction_ = true;
+  FixContactSampler::of(lmp).add_friction_user(this);
 }
 
 void ContactCompute::declare_vector(int length) {

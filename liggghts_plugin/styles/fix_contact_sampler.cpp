@@ -5,7 +5,7 @@
 
 #include "atom.h"
 #include "comm.h"
-#include "compute_pair_gran_local.h"
+#include "contact_collector.h"
 #include "domain.h"
 #include "fix_property_global.h"
 #include "lammps.h"
@@ -24,95 +24,6 @@ namespace {
 constexpr const char* kId = "suffuse_contacts";
 }
 
-namespace LAMMPS_NS {
-
-/// Receives contacts from the pair style through the interface of `compute pair/gran/local`.
-///
-/// A pair style serves one such compute at a time, and a script may have its own: `lend` puts ours in its
-/// place for one pass and puts the script's back.
-class ContactCollector : public ComputePairGranLocal {
- public:
-  static std::unique_ptr<ContactCollector> create(LAMMPS* lmp, FixContactSampler* sampler) {
-    // The base class refuses to be made after a first run, since it would be asked for values of the past;
-    // this one is only ever asked for the present.
-    const bigint now = lmp->update->ntimestep;
-    lmp->update->ntimestep = 0;
-    char id[] = "suffuse_collector";
-    char group[] = "all";
-    char style[] = "pair/gran/local";
-    char* words[] = {id, group, style};
-    int first = 3;
-    auto collector = std::unique_ptr<ContactCollector>(new ContactCollector(lmp, first, words, sampler));
-    lmp->update->ntimestep = now;
-    return collector;
-  }
-
-  /// Passes every contact to the sampler.
-  ///
-  /// The pair style leaves the spring of a sliding contact at its Coulomb limit, so that a second evaluation
-  /// finds it above or below the limit by rounding, and below adds a damping force that the first did not
-  /// have: by chance, and otherwise on other ranks. The springs are therefore stretched by kStretch for the
-  /// sweep, which keeps sliding contacts sliding, and put back bit for bit.
-  void sweep(PairGran& pair) {
-    ComputePairGranLocal* previous = pair.cpl();
-    if (previous != nullptr) pair.unregister_compute_pair_local(previous);
-    int history_values = 0;
-    pair.register_compute_pair_local(this, history_values);
-    springs_.clear();
-    saved_.clear();
-    finding_springs_ = true;
-    spring_values_ = pair.is_history() ? pair.dnum() : 0;
-    if (spring_values_ > 0) pair.compute_pgl(0, 0);
-    finding_springs_ = false;
-    stretch_springs();
-    pair.compute_pgl(0, 0);
-    restore_springs();
-    pair.unregister_compute_pair_local(this);
-    if (previous != nullptr) pair.register_compute_pair_local(previous, history_values);
-  }
-
-  void add_pair(int i, int j, double fx, double fy, double fz, double, double, double, double* history,
-                const double* const) override {
-    if (finding_springs_) {
-      if (history != nullptr) springs_.push_back(history);
-      return;
-    }
-    const double force_on_i[3] = {fx, fy, fz};
-    sampler_->add_contact(i, j, force_on_i);
-  }
-  void pair_finalize() override {}
-
- private:
-  ContactCollector(LAMMPS* lmp_in, int& first, char** words, FixContactSampler* sampler)
-      : ComputePairGranLocal(lmp_in, first, 3, words), sampler_(sampler) {}
-
-  void stretch_springs() {
-    for (double* spring : springs_) {
-      saved_.insert(saved_.end(), spring, spring + spring_values_);
-      for (int k = 0; k < spring_values_; ++k) spring[k] *= 1 + kStretch;
-    }
-  }
-
-  void restore_springs() {
-    const double* saved = saved_.data();
-    for (double* spring : springs_) {
-      std::copy(saved, saved + spring_values_, spring);
-      saved += spring_values_;
-    }
-  }
-
-  static constexpr double kStretch =
-      1e-13;  // above the rounding of the limit, some 1e-16, below any result's digits
-
-  FixContactSampler* sampler_;
-  bool finding_springs_ = false;
-  int spring_values_ = 0;
-  std::vector<double*> springs_;
-  std::vector<double> saved_;
-};
-
-}  // namespace LAMMPS_NS
-
 FixContactSampler::FixContactSampler(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {}
 
 FixContactSampler::~FixContactSampler() = default;
@@ -130,14 +41,26 @@ void FixContactSampler::add_user(Compute* compute) {
   users_.push_back(compute);
 }
 
+void FixContactSampler::add_friction_user(Compute* compute) {
+  friction_users_.push_back(compute);
+}
+
+void FixContactSampler::add_wall_user(Compute* compute) {
+  wall_users_.push_back(compute);
+}
+
 void FixContactSampler::forget_user(LAMMPS* lmp, Compute* compute) {
   // While LIGGGHTS shuts down, computes outlive fixes.
   if (lmp->modify->find_fix(kId) < 0) return;
-  std::erase(static_cast<FixContactSampler*>(lmp->modify->find_fix_id(kId))->users_, compute);
+  auto* sampler = static_cast<FixContactSampler*>(lmp->modify->find_fix_id(kId));
+  std::erase(sampler->users_, compute);
+  std::erase(sampler->friction_users_, compute);
+  std::erase(sampler->wall_users_, compute);
 }
 
-void FixContactSampler::request(bigint step) {
+void FixContactSampler::request(bigint step, bool friction) {
   requested_steps_.insert(step);
+  if (friction) friction_steps_.insert(step);
 }
 
 double FixContactSampler::force_exponent() const {
@@ -151,13 +74,14 @@ void FixContactSampler::pre_delete(bool unfixflag) {
 }
 
 int FixContactSampler::setmask() {
-  return FixConst::POST_FORCE;
+  return FixConst::POST_FORCE | FixConst::PRE_FINAL_INTEGRATE;
 }
 
 void FixContactSampler::init() {
   pair_ = &suffuse::require_granular_pair_style(lmp, "contact sampler");
-  if (collector_ == nullptr) collector_ = ContactCollector::create(lmp, this);
-  sampled_step_ = -1;
+  if (collector_ == nullptr) collector_ = ContactCollector::create(lmp);
+  if (wall_collector_ == nullptr) wall_collector_ = WallCollector::create(lmp);
+  sampled_step_ = walls_step_ = -1;
   by_group_.clear();
 
   const int types = atom->ntypes;
@@ -180,49 +104,63 @@ void FixContactSampler::init() {
 void FixContactSampler::setup(int) {
   // LIGGGHTS evaluates thermo and dumps at the start of a run without having announced it.
   sampled_step_ = -1;
-  if (!users_.empty()) sample();
+  if (!users_.empty()) sample(!friction_users_.empty());
+  if (!wall_users_.empty()) sample_walls();
 }
 
-bool FixContactSampler::wanted() const {
-  if (requested_steps_.contains(update->ntimestep)) return true;
-  if (!users_.empty() && update->ntimestep == update->laststep)
+bool FixContactSampler::asked_by(const std::vector<Compute*>& users) const {
+  if (!users.empty() && update->ntimestep == update->laststep)
     return true;  // for what a script reads after the run
-  return std::any_of(users_.begin(), users_.end(),
+  return std::any_of(users.begin(), users.end(),
                      [&](Compute* c) { return c->matchstep(update->ntimestep) != 0; });
 }
 
 void FixContactSampler::post_force(int) {
-  if (wanted()) sample();
-  requested_steps_.erase(requested_steps_.begin(), requested_steps_.upper_bound(update->ntimestep));
+  const bigint now = update->ntimestep;
+  const bool friction = friction_steps_.contains(now) || asked_by(friction_users_);
+  if (friction || requested_steps_.contains(now) || asked_by(users_)) sample(friction);
+  requested_steps_.erase(requested_steps_.begin(), requested_steps_.upper_bound(now));
+  friction_steps_.erase(friction_steps_.begin(), friction_steps_.upper_bound(now));
 }
 
-void FixContactSampler::sample() {
+void FixContactSampler::pre_final_integrate() {
+  if (asked_by(wall_users_)) sample_walls();
+}
+
+void FixContactSampler::sample_walls() {
+  walls_ = wall_collector_->sweep("contact sampler");
+  walls_step_ = update->ntimestep;
+  ++generation_;
+}
+
+void FixContactSampler::sample(bool friction) {
+  ++generation_;
   contacts_.clear();
   by_group_.clear();
-  collector_->sweep(*pair_);
+  for (const ContactCollector::Found& found : collector_->sweep(*pair_, friction)) add_contact(found);
   volume_ = domain->xprd * domain->yprd * domain->zprd;
   box_low_ = suffuse::Vec3(domain->boxlo[0], domain->boxlo[1], domain->boxlo[2]);
   box_high_ = suffuse::Vec3(domain->boxhi[0], domain->boxhi[1], domain->boxhi[2]);
   sampled_step_ = update->ntimestep;
+  has_friction_ = friction;
   // Now, not when first read: a servo moves grains and box at the end of the step.
   for (Compute* user : users_)
     if (user->matchstep(update->ntimestep)) group_packing(user->groupbit);
 }
 
-void FixContactSampler::add_contact(int i, int j, const double* force_on_i) {
-  const double* xi = atom->x[i];
-  const double* xj = atom->x[j];
-  const suffuse::Vec3 branch(xi[0] - xj[0], xi[1] - xj[1], xi[2] - xj[2]);
-  const double reach = atom->radius[i] + atom->radius[j];
-  if (branch.squaredNorm() >= reach * reach) return;  // forces at a distance (cohesion) are not contacts
-
+void FixContactSampler::add_contact(const ContactCollector::Found& found) {
+  const double reach = atom->radius[found.i] + atom->radius[found.j];
+  if (found.branch.squaredNorm() >= reach * reach)
+    return;  // forces at a distance (cohesion) are not contacts
   Contact contact;
-  contact.first = i;
-  contact.second = j;
-  contact.branch = branch;
-  contact.force = suffuse::Vec3(force_on_i[0], force_on_i[1], force_on_i[2]);
+  contact.first = found.i;
+  contact.second = found.j;
+  contact.branch = found.branch;
+  contact.force = found.force;
   contact.friction =
-      friction_[static_cast<std::size_t>((atom->type[i] - 1) * atom->ntypes + atom->type[j] - 1)];
+      friction_[static_cast<std::size_t>((atom->type[found.i] - 1) * atom->ntypes + atom->type[found.j] - 1)];
+  contact.friction_limit = found.friction_limit;
+  contact.spring_force = found.spring_force;
   contacts_.push_back(contact);
 }
 
@@ -238,6 +176,25 @@ const Packing& FixContactSampler::packing(int group_bit) {
   return group_packing(group_bit).packing;
 }
 
+const Packing& FixContactSampler::packing_with_friction(int group_bit) {
+  if (sampled_step_ != update->ntimestep || !has_friction_) {
+    comm->forward_comm();
+    sample(true);
+  }
+  return packing(group_bit);
+}
+
+std::vector<suffuse::micromechanics::WallContact> FixContactSampler::walls(int group_bit) {
+  if (walls_step_ != update->ntimestep) sample_walls();
+  const std::vector<int>& index = grain_index(group_bit);
+  std::vector<suffuse::micromechanics::WallContact> result;
+  for (const WallCollector::Found& found : walls_) {
+    const int grain = index[static_cast<std::size_t>(found.i)];
+    if (grain != kNotOwned) result.push_back({grain, found.branch, found.force});
+  }
+  return result;
+}
+
 const std::vector<int>& FixContactSampler::grain_index(int group_bit) {
   return group_packing(group_bit).index;
 }
@@ -245,7 +202,7 @@ const std::vector<int>& FixContactSampler::grain_index(int group_bit) {
 FixContactSampler::GroupPacking& FixContactSampler::group_packing(int group_bit) {
   if (sampled_step_ != update->ntimestep) {
     comm->forward_comm();  // at the end of a step ghosts are still at mid-step velocities
-    sample();
+    sample(!friction_users_.empty());
   }
   const auto known = by_group_.find(group_bit);
   if (known != by_group_.end()) return known->second;

@@ -3,7 +3,7 @@
 namespace suffuse::micromechanics {
 
 double normal_force(const Contact& contact) {
-  return std::abs(contact.force.dot(contact.branch.normalized()));
+  return contact.force.dot(contact.branch.normalized());
 }
 
 double tangential_force(const Contact& contact) {

@@ -113,7 +113,7 @@ PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bi
     const int bin = std::min(static_cast<int>(std::atan2(across, along) / kTwoPi * bins), half - 1);
     for (const int where : {bin, bin + half}) {
       result.contacts[index(where)] += 1;
-      result.normal[index(where)] += std::abs(force);
+      result.normal[index(where)] += force;
       result.tangential[index(where)] += sideways;
     }
   }

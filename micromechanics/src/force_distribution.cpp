@@ -17,6 +17,7 @@ void for_each_force(const Packing& packing, Take take) {
 double add_to_density(std::vector<double>& density, double force, double mean, double count,
                       const ForceBins& bins) {
   if (mean <= 0) return 0;
+  if (force < 0) return 0;  // tension has no place among the bins
   const double bin = force / mean / bins.width;
   if (!(bin < bins.count)) return 1 / count;
   density[static_cast<std::size_t>(bin)] += 1 / count / bins.width;
@@ -33,10 +34,12 @@ ForceDistribution force_distribution(const Packing& packing, const ForceBins& bi
   for_each_force(packing, [&](double normal, double tangential) {
     count += 1;
     result.mean_normal += normal;
+    result.tensile_share += normal < 0;
     result.mean_tangential += tangential;
   });
   if (count == 0) return result;
   result.mean_normal /= count;
+  result.tensile_share /= count;
   result.mean_tangential /= count;
   double strong = 0, excess = 0, squares = 0;
   for_each_force(packing, [&](double normal, double tangential) {

@@ -16,6 +16,7 @@ TensorSum stress_times_volume(const Packing& packing) {
   TensorSum sum;
   for (const Contact& contact : packing.contacts)
     if (is_counted(packing, contact)) sum.add(contact.branch * contact.force.transpose());
+  for (const WallContact& wall : packing.walls) sum.add(wall.branch * wall.force.transpose());
   return sum;
 }
 
@@ -30,6 +31,7 @@ void for_each_grain_stress(const Packing& packing, GrainArm arm,
     if (owns_second(contact))
       take(contact.second, arm_length(second_radius(packing, contact), overlap_length, distance, arm) * unit);
   }
+  for (const WallContact& wall : packing.walls) take(wall.grain, wall.branch * wall.force.transpose());
 }
 
 std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm) {

@@ -161,6 +161,16 @@ def check_ranks(study, mpirun):
     check("2 runs, 0 of them done" in study.must_run("two.toml", "--ranks", 2, "--out", "two", "--dry-run", "--resume"), "a changed script is another run")
 
 
+def check_unsteady(study):
+    """A run that says it is not steady yet has its numbers in the table and no place on the front."""
+    study.write("in.tiny", TINY.replace('if "', 'if "${value} == 1" then "print \'lbm run: not yet steady after 0.1 s\'" "print \'note: on its way\'"\nif "'))
+    out = study.must_run(study.write("unsteady.toml", TINY_STUDY.replace("1.5", "1.1")), "--out", "unsteady", "--no-figure")
+    rows = study.rows("unsteady")
+    check([(row["status"], row["front"], row["notes"]) for row in rows] == [("unsteady", "0", "on its way"), ("finished", "1", "")], f"{rows}")
+    check(rows[0]["answer"] == "1" and "unsteady: not yet steady after 0.1 s" in out and "noted by 1 run: on its way" in out and "the most accurate: value=2" in out, out)
+    study.write("in.tiny", TINY)
+
+
 def check_mistakes(study):
     study.write("in.tiny", TINY)
     study.write("expected.csv", "quantity,value\nother,1\n")
@@ -214,6 +224,7 @@ def main():
         study = Study(pathlib.Path(options.study).resolve(), pathlib.Path(scratch).resolve())
         check("suffuse-study " in study.must_run("--version") and "--resume" in study.must_run("--help"), "--version, --help")
         check_mistakes(study)
+        check_unsteady(study)
         check_ranks(study, pathlib.Path(options.mpirun).resolve())
         check_study(study, python_with_figures() is not None)
     print("suffuse-study: runs, failures, interruption, resumption and mistakes as described")

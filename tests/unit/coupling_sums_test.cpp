@@ -154,6 +154,8 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
     contact.force = Vec3(1, 2, 3) * static_cast<double>(own);
     contact.branch = -contact.force;
     contact.friction = 0.25;
+    contact.friction_limit = 2.5;
+    contact.spring_force = 0.5;
     add_image_contact(network, contact, {own + (n % 2 == 0 ? 1000 : 2000), 1, n % 2 == 0});
   }
   snapshot.step = 7;
@@ -180,6 +182,9 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
   REQUIRE(file.extents(contacts + "/friction") == std::vector<std::size_t>{all});
   const auto pairs = file.read<std::int64_t>(contacts + "/ids", {{all, 2}, {0, 0}, {all, 2}});
   const auto force = file.read<double>(contacts + "/force", {{all, 3}, {0, 0}, {all, 3}});
+  CHECK(file.read<double>(contacts + "/friction_limit", {{all}, {0}, {all}}) ==
+        std::vector<double>(all, 2.5));
+  CHECK(file.read<double>(contacts + "/spring_force", {{all}, {0}, {all}}) == std::vector<double>(all, 0.5));
   const auto branch = file.read<double>(contacts + "/branch", {{all, 3}, {0, 0}, {all, 3}});
   for (std::size_t n = 0; n < all; ++n) {
     CHECK(pairs[2 * n] == ids[n]);  // in the order of the ranks, as the grains

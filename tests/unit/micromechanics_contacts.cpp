@@ -4,6 +4,7 @@
 #include "hand_packings.h"
 #include "suffuse/micromechanics/broken_contacts.h"
 #include "suffuse/micromechanics/fabric.h"
+#include "suffuse/micromechanics/force_distribution.h"
 #include "suffuse/micromechanics/slipping.h"
 #include "suffuse/micromechanics/strong_contacts.h"
 
@@ -46,6 +47,44 @@ TEST_CASE("sliding has a tolerance for rounding, which the appendix's rule has n
   CHECK_FALSE(is_sliding(stuck, tolerant));
   const Contact capped = contact_with(10, 3.001, 0.3);
   CHECK(is_sliding(capped, exact));
+}
+
+TEST_CASE("damping above the limit does not make a contact slide where its spring is known") {
+  const Contact damped = contact_with(10, 8.85, 0.3);  // 2.95 times the limit
+  CHECK(slipping_index(damped) == 1);
+  CHECK(is_sliding(damped, {}));
+  CHECK(is_above_limit(damped, 1e-6));
+  CHECK(contacts_above_limit(two_grains({damped, contact_with(10, 3, 0.3)}), 1e-6) == 1);
+  Contact known = damped;
+  known.friction_limit = 3;
+  known.spring_force = 1.2;
+  CHECK_FALSE(is_sliding(known, {}));
+  CHECK_FALSE(is_above_limit(known, 1e-6));
+  known.spring_force = 3 * (1 - 1e-9);
+  CHECK(is_sliding(known, {}));
+}
+
+TEST_CASE("the limit of the contact law counts where cohesion pulls the normal force below it") {
+  Contact held = contact_with(10, 2, 0.3);  // 10 N in all: 14 N of the spring less 4 N of cohesion
+  held.friction_limit = 0.3 * 14;
+  held.spring_force = 1.9;
+  CHECK(slipping_index(held) == Approx(2 / 4.2));
+  CHECK(mobilised_friction(held) == Approx(2. / 14));
+  CHECK_FALSE(is_sliding(held, {}));
+}
+
+TEST_CASE("a contact in tension is no strong one and has a negative normal force") {
+  const Contact tensile = contact_with(-10, 0.5, 0.3);
+  const Packing packing = two_grains({tensile, contact_with(4, 0, 0.3), contact_with(8, 0, 0.3)});
+  CHECK(normal_force(tensile) == Approx(-10));
+  const double mean = mean_normal_force(normal_force_sums(packing));
+  CHECK(mean == Approx(2. / 3));
+  const StrongContacts strong = strong_contacts(strong_sums(packing, 5), 2);
+  CHECK(strong.share == Approx(1. / 3));
+  // Two compressive contacts and one of tension: (4 + 8 − 10) × branch; the strong one carries 8 of 2.
+  CHECK(strong.mean_stress_share == Approx(4));
+  const ForceDistribution forces = force_distribution(packing, {});
+  CHECK(forces.tensile_share == Approx(1. / 3));
 }
 
 TEST_CASE("a frictionless contact slides, except by the appendix's 0/0") {

@@ -200,6 +200,54 @@ TEST_CASE("numbers are found in tables of results and in series, with commas in 
         }).find("must be a number") != std::string::npos);
 }
 
+TEST_CASE("a run that is not steady yet takes no part and is no reference") {
+  Study study;
+  study.quantities.resize(1);
+  study.quantities[0].name = "k";
+  study.quantities[0].by_finest = true;
+  study.sweeps = {{{"n", {"1", "2"}}}};
+  study.finest = {{"n", "9"}};
+  StudyRow finest = row("9", 50, 50, 2.0), fast = row("1", 1, 1, 2.02), slow = row("2", 5, 5, 2.2);
+  finest.run.is_reference = true;
+  fast.record.status = RunRecord::Status::unsteady;
+  fast.record.notes = "relaxation time is large";
+  StudyTable table(study, StudyTime::wall);
+  for (const StudyRow& one : {fast, slow, finest}) table.add(one);
+  CHECK_FALSE(table.rows()[0].on_front);
+  CHECK(table.rows()[1].on_front);
+  CHECK(*table.rows()[0].error == Approx(0.01));
+  CHECK(table.verdict().find("n=2") != std::string::npos);
+  CHECK(table.text().find("noted by 1 run: relaxation time is large") != std::string::npos);
+  CHECK(table.text().find("u: not steady yet") != std::string::npos);
+  finest.record.status = RunRecord::Status::unsteady;
+  StudyTable without(study, StudyTime::wall);
+  for (const StudyRow& one : {slow, finest}) without.add(one);
+  CHECK_FALSE(without.rows()[0].error);
+}
+
+TEST_CASE("a run's own notes become its record's, and say whether it was steady") {
+  const Scratch scratch;
+  ProcessEnd end;
+  const std::string log =
+      scratch.write("log.txt",
+                    "lbm run: note: grains are fast\nnote: low viscosity\nnote: low viscosity\nfootnote: no\n"
+                    "lbm run: not yet steady after 0.2 s\n");
+  const RunRecord record = record_of(end, log, 0, "s");
+  CHECK(record.status == RunRecord::Status::unsteady);
+  CHECK(has_results(record));
+  CHECK(record.reason == "not yet steady after 0.2 s");
+  CHECK(record.notes == "grains are fast; low viscosity");
+  write_record(scratch.path.string(), record);
+  CHECK(read_record(scratch.path.string(), "s")->notes == record.notes);
+  // A record from before notes were kept: its log tells.
+  scratch.write("run.json",
+                "{\"status\":\"finished\",\"reason\":\"\",\"wall_s\":1,\"core_s\":1,\"other_cores\":0,"
+                "\"settings\":\"s\"}");
+  CHECK(read_record(scratch.path.string(), "s")->status == RunRecord::Status::unsteady);
+  CHECK(record_of(end, scratch.write("log.txt", "lbm run: steady after 0.1 s\n"), 0, "s").status ==
+        RunRecord::Status::finished);
+}
+
 TEST_CASE("a record is taken up again with the same settings only, and a failure has the log's last error") {
   const Scratch scratch;
   RunRecord record;

@@ -23,11 +23,11 @@ except ImportError:  # Debian's Python has them
     os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "micromechanics"))
-from computed_columns import COLUMNS, COMPUTES, difference  # noqa: E402
+from computed_columns import COLUMNS, COMPUTES, LAW_COLUMNS, LAW_VALUES, difference  # noqa: E402
 from contact_scene import SAMPLE, SPLIT, Suffuse, check, read_dump  # noqa: E402
 
 WORDS = [word for _, word, _ in COLUMNS] + ["c_sw[1]", "vol", "xlo", "xhi", "ylo", "yhi", "zlo", "zhi"]
-VALUES = " ".join(f"c_pairs[{k}]" for k in range(1, 19))
+VALUES = " ".join(f"c_pairs[{k}]" for k in range(1, 19)) + " " + LAW_VALUES
 
 
 def dumps(tag):
@@ -36,9 +36,9 @@ def dumps(tag):
 dump short{tag} all local 1 pairs.*.dump {VALUES}
 dump grains{tag} all custom 1 grains.*.dump id type x y z radius
 dump ten{tag} all local 1 ten.pairs.*.dump {VALUES}
-dump_modify ten{tag} format "{" ".join(["%.10g"] * 18)}"
+dump_modify ten{tag} format "{" ".join(["%.10g"] * 20)}"
 dump long{tag} all local 1 exact.pairs.{tag} {VALUES}
-dump_modify long{tag} format "{" ".join(["%.17g"] * 18)}"
+dump_modify long{tag} format "{" ".join(["%.17g"] * 20)}"
 dump all{tag} all custom 1 exact.grains.{tag} id radius x y z
 dump_modify all{tag} format "%d {" ".join(["%.17g"] * 4)}"
 run 0
@@ -81,6 +81,8 @@ def write_hdf5(path, folder, computed):
             group["grains/position"] = [[g[axis] for axis in "xyz"] for g in grains]
             group["contacts/ids"] = numpy.array([[p["c_pairs[7]"], p["c_pairs[8]"]] for p in pairs], dtype="i8")
             group["contacts/force"] = [[p[f"c_pairs[{k}]"] for k in (10, 11, 12)] for p in pairs]
+            group["contacts/friction_limit"] = [p["c_si[7]"] for p in pairs]
+            group["contacts/spring_force"] = [p["c_si[8]"] for p in pairs]
 
 
 def gather(folder, name, steps):
@@ -89,7 +91,7 @@ def gather(folder, name, steps):
 
 
 def compare(suffuse, computed, what, files, tolerance):
-    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv")
+    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv", *LAW_COLUMNS)
     check(code == 0, f"{what}: suffuse-analyse ended with {code}: {err}")
     with open(suffuse.folder / "series.csv", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -20,6 +20,10 @@ COLUMNS = [
     ("strong_mean_stress_share", "c_st[4]", 1e-5), ("strong_deviator_share", "c_st[5]", 1e-5),
 ]
 
+# The limit and the spring that the contact law has, in dumps beside compute pair/gran/local.
+LAW_VALUES = "c_si[7] c_si[8]"
+LAW_COLUMNS = ["--column", "friction_limit=c_si[7]", "spring_force=c_si[8]"]
+
 COMPUTES = """
 compute z all coordination split {split}
 compute ap all stress/reduction split {split}
@@ -27,6 +31,7 @@ compute ah all stress/reduction split {split} by pair_halves
 compute r all constraint/ratio
 compute s all sliding/contacts
 compute sw all sliding/contacts tolerance 2e-5
+compute si all slipping/index
 compute f all fabric
 compute st all strong/contacts axis z
 """

@@ -28,6 +28,8 @@ enum Place {
   ftz,
   delta,
   friction,
+  friction_limit,
+  spring_force,
   count
 };
 }

@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/contact_columns.h"
 #include "suffuse/analysis/dump_file.h"
+#include "suffuse/analysis/sample_body.h"
 #include "suffuse/analysis/snapshot.h"
 
 namespace suffuse::analysis {
@@ -53,6 +54,7 @@ class DumpSeries : public SnapshotSeries {
   int grain_of(double id);
 
   ReadSettings settings_;
+  SampleBody sample_{settings_};
   DumpChain grains_, contacts_;
   std::int64_t bytes_, alone_grains_ = 0, alone_contacts_ = 0, pairs_ = 0;
   std::vector<int> index_of_id_;  ///< −1: no such grain

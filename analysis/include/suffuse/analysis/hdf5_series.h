@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "suffuse/analysis/sample_body.h"
 #include "suffuse/analysis/snapshot.h"
 
 namespace suffuse::analysis {
@@ -20,6 +21,8 @@ namespace suffuse::analysis {
 ///     without
 ///                                         it from the positions
 ///     /step_N/contacts/friction  (C)      coefficient (optional)
+///     /step_N/contacts/friction_limit (C), spring_force (C)   of the contact law's tangential spring, N
+///                                         (optional: from force and friction)
 ///     /step_N/box                (2, 3)   low and high corner, m (optional with a given volume)
 ///     /step_N/periodic           (3)      0 or 1 an axis (optional: not periodic)
 ///
@@ -40,12 +43,13 @@ class Hdf5Series : public SnapshotSeries {
   struct File;
   [[noreturn]] void complain(const std::string& problem, const std::string& remedy) const;
   std::vector<double> numbers(const std::string& dataset, std::size_t columns) const;
-  void read_box(micromechanics::Packing& packing, Vec3& period) const;
+  std::array<bool, 3> read_box(micromechanics::Packing& packing) const;
   void read_grains(micromechanics::Packing& packing) const;
   void read_contacts(micromechanics::Packing& packing, const Vec3& period) const;
 
   std::string path_;
   ReadSettings settings_;
+  SampleBody sample_{settings_};
   std::unique_ptr<File> file_;
   std::vector<std::string> groups_;
   std::string group_;  ///< of the current snapshot, "/step_N"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "suffuse/micromechanics/contact_network.h"
+#include "suffuse/micromechanics/sphere_cut.h"
 
 namespace suffuse::analysis {
 
@@ -27,8 +28,11 @@ struct ReadSettings {
   std::vector<std::string> contact_words;
   /// Our name of a quantity → its column in the file, where that differs.
   std::map<std::string, std::string> columns;
-  double friction = 0.3;         ///< of all contacts, where the file does not tell it
-  std::optional<double> volume;  ///< of the sample, m³; the box's where not given
+  double friction = 0.3;  ///< of all contacts, where the file does not tell it
+  /// Of the sample, m³; the box's where neither this nor the next two are given.
+  std::optional<double> volume;
+  bool bed = false;                           ///< the sample is the bed (micromechanics::bed_box)
+  std::optional<micromechanics::Box> region;  ///< the sample is what lies in it, m
 };
 
 /// Snapshots in the order of their steps; one is in memory at a time.
@@ -41,7 +45,8 @@ class SnapshotSeries {
   /// Share of the bytes that have been read, 0 to 1.
   virtual double done() const = 0;
   virtual std::int64_t bytes() const = 0;
-  /// What was left out on the way, for people; empty if nothing.
+  /// What was left out on the way, and whether the box is another body than the bed, for people; empty if
+  /// nothing.
   virtual std::string notes() const { return {}; }
 };
 

@@ -7,12 +7,18 @@
 
 namespace suffuse::analysis {
 
+/// The screen output of a run, in its folder.
+inline constexpr const char* kRunLog = "log.txt";
+
 /// What is kept in the folder of a run once it has ended: run.json.
 struct RunRecord {
-  enum class Status { finished, failed, too_long };
+  /// `unsteady`: it ended as it should, but said that its flow was not steady yet where it was to be; its
+  /// numbers are those of a state on its way.
+  enum class Status { finished, unsteady, failed, too_long };
 
   Status status = Status::failed;
-  std::string reason;    ///< why it did not finish: the program's own last error line
+  std::string reason;    ///< why it did not finish: the program's own last error line; what is not steady
+  std::string notes;     ///< what the program's notes say, each once, joined by "; "
   std::string settings;  ///< fingerprint of script, variables and ranks: other settings are another run
   double wall = 0, core = 0, other_cores = 0;
 };
@@ -25,7 +31,10 @@ void write_record(const std::string& folder, const RunRecord& record);
 /// other ones.
 std::optional<RunRecord> read_record(const std::string& folder, const std::string& settings);
 
-/// The record of a run that ended like this; its log says why where it failed.
+/// Did it end as it should, so that its numbers can be read?
+bool has_results(const RunRecord& record);
+
+/// The record of a run that ended like this; its log says why where it failed, and what it noted.
 RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit, const std::string& settings);
 
 /// The last line of a log that tells an error ("suffuse: error: ..." or LIGGGHTS's "ERROR: ..."), without

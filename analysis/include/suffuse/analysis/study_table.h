@@ -39,7 +39,7 @@ class StudyTable {
   /// "fastest within 3 %: resolution=5, 12.3 s (error 1.6 %)"; where several quantities have a reference, a
   /// line for each of them alone behind it.
   std::string verdict() const;
-  /// A row a run: variables, status, seconds, quantities, references, errors, front.
+  /// A row a run: variables, status, seconds, quantities, references, errors, front, reason, notes.
   void write_csv(const std::string& path) const;
 
  private:
@@ -47,7 +47,7 @@ class StudyTable {
   /// By the largest error, or by that of one quantity.
   std::vector<TradeOff> trade_offs(std::optional<std::size_t> quantity = std::nullopt) const;
   std::string sentence(const std::vector<TradeOff>& runs) const;
-  /// What a quantity should be; nothing while the finest run has not ended.
+  /// What a quantity should be; nothing while the finest run has not ended, or where it was not steady.
   std::optional<double> target_of(std::size_t quantity) const;
   void work_out_errors();
   /// No smaller than the reference is uncertain.
@@ -56,6 +56,7 @@ class StudyTable {
   std::ptrdiff_t judged() const;  ///< quantities with a reference
   std::string finished_text() const;
   std::string failed_text() const;
+  std::string notes_text() const;
 
   const Study& study_;
   StudyTime time_;

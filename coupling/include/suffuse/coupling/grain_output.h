@@ -18,7 +18,8 @@ struct GrainSnapshot {
   GrainMemory memory;
   Vec3 box_low = Vec3::Zero(), box_high = Vec3::Zero();  ///< m
   std::array<bool, 3> periodic{};
-  const micromechanics::Packing* network = nullptr;  ///< its counted contacts are written; none: no contacts
+  const micromechanics::Packing* network = nullptr;  ///< its counted contacts are written, with
+                                                     ///< limit and spring; none: no contacts
 };
 
 /// A time series of the grains, in SI, beside the fluid's fields: each snapshot is a group
@@ -29,7 +30,8 @@ struct GrainSnapshot {
 /// - box (m): the low and the high corner; periodic: 0 or 1 for x, y, z;
 /// - contacts, where there is a network: one row a contact, each once over all ranks and periodic images: ids
 ///   of both grains; force on the first (N); branch from the second's centre to the first's (m); friction
-///   coefficient.
+///   coefficient; friction_limit and spring_force (N), what the contact law caps its tangential spring with
+///   and the spring's force, for `suffuse-analyse` to tell which contacts slide.
 ///
 /// That is what `suffuse-analyse contacts` reads (docs/analysis/suffuse-analyse.md). The XDMF file beside it
 /// shows the grains as points in ParaView (filter Glyph, sphere, scaled by `diameter`). After each snapshot

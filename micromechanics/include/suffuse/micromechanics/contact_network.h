@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "suffuse/common/linear_algebra.h"
@@ -16,13 +17,17 @@ inline constexpr int kNotOwned = -1;
 /// rank's grain, or a periodic image) is listed once for each owner, so that sums over a grain's own contacts
 /// need no communication; of those listings exactly one, over all ranks, counts (is_counted).
 ///
-/// 64 bytes: a dump of 1 GB has six million of them.
+/// 80 bytes: a dump of 1 GB has six million of them.
 struct Contact {
   int first = 0;               ///< index into Packing::grains
   int second = 0;              ///< index into Packing::grains; negative: -1 - index into Packing::images
   Vec3 branch = Vec3::Zero();  ///< centre of second to centre of first, nearest image, m
   Vec3 force = Vec3::Zero();   ///< contact force on first, N
   double friction = 0;         ///< Coulomb coefficient of the pair, dimensionless
+  /// What the contact law itself caps its tangential spring with, N, and the spring's force, N, without the
+  /// damping that the law adds to it. NaN where only the whole force is known.
+  double friction_limit = std::numeric_limits<double>::quiet_NaN();
+  double spring_force = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The second grain of one listing that this rank does not own, or of which it is a periodic image.
@@ -39,12 +44,20 @@ struct Grain {
   Vec3 position = Vec3::Zero();  ///< m
 };
 
+/// A contact of an owned grain with a wall.
+struct WallContact {
+  int grain = 0;               ///< index into Packing::grains
+  Vec3 branch = Vec3::Zero();  ///< point of contact to the grain's centre, m
+  Vec3 force = Vec3::Zero();   ///< on the grain, N
+};
+
 /// The part of a packing that one rank knows: its own grains and their contacts.
 struct Packing {
   std::vector<Grain> grains;
   std::vector<Contact> contacts;
   std::vector<Image> images;
-  double volume = 0;  ///< of the whole sample, voids included, over all ranks; m³
+  std::vector<WallContact> walls;  ///< they count in stresses, and in nothing else; empty: left out
+  double volume = 0;               ///< of the whole sample, voids included, over all ranks; m³
   Vec3 box_low =
       Vec3::Zero();  ///< corners of the box at the time of the contacts, m: a servo moves them within a
   Vec3 box_high = Vec3::Zero();  ///< step, after the forces
@@ -84,7 +97,7 @@ inline std::int64_t second_id(const Packing& packing, const Contact& contact) {
 /// Lists a contact of an owned grain with an image; contact.second is set here.
 void add_image_contact(Packing& packing, Contact contact, const Image& image);
 
-/// Magnitude of the normal force, |f·n|, N.
+/// Normal force f·n, N; compression positive, a tensile contact (cohesion) has a negative one.
 double normal_force(const Contact& contact);
 
 /// Magnitude of the tangential force, |f − (f·n)n|, N.

@@ -12,7 +12,7 @@ namespace suffuse::micromechanics {
 /// with its angle and the opposite one (thesis App. D); those perpendicular to the plane have none.
 struct PlaneDistribution {
   std::vector<double> contacts;    ///< 2 N_c shared out over the bins
-  std::vector<double> normal;      ///< Σ f_N, N
+  std::vector<double> normal;      ///< Σ f_N, N; tension negative
   std::vector<double> tangential;  ///< Σ f_T·t in the plane, t = (−sin θ, cos θ), N: signed
 
   int bins() const { return static_cast<int>(contacts.size()); }

@@ -14,12 +14,13 @@ struct ForceBins {
 
 /// Probability density of contact forces over their own mean (`radjai1996`).
 struct ForceDistribution {
-  double mean_normal = 0;               ///< ⟨f_N⟩, N
+  double mean_normal = 0;               ///< ⟨f_N⟩, N; tension negative
   double mean_tangential = 0;           ///< ⟨f_T⟩, N
   std::vector<double> normal;           ///< P(f_N/⟨f_N⟩) of each bin, dimensionless
   std::vector<double> tangential;       ///< P(f_T/⟨f_T⟩)
   double normal_beyond = 0;             ///< share of contacts beyond the last bin: Σ P width = 1 − beyond
   double tangential_beyond = 0;         ///< the same of f_T
+  double tensile_share = 0;             ///< share of contacts in tension, which lie in no bin of f_N
   double tail_exponent = 0;             ///< β of P ~ exp(−β f_N/⟨f_N⟩) for forces above the mean
   double coefficient_of_variation = 0;  ///< standard deviation of f_N over ⟨f_N⟩
 };

@@ -35,7 +35,7 @@ class SphericalGrid {
 /// Contact normals over the sphere; each contact enters with both directions.
 struct SphericalDistribution {
   std::vector<double> contacts;  ///< one value a cell
-  std::vector<double> normal;    ///< Σ f_N, N
+  std::vector<double> normal;    ///< Σ f_N, N; tension negative
 
   /// Adds another packing's, on the same grid.
   void add(const SphericalDistribution& other);

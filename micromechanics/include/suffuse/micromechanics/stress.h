@@ -15,10 +15,12 @@ enum class GrainArm {
 };
 
 /// One rank's part of V σ_ij = Σ_c l_i f_j over the contacts it counts, N·m. l: branch from second to first
-/// grain, f: force on the first, so that compression is positive. No kinetic part (thesis eqs 4.1, 6.3).
+/// grain, f: force on the first, so that compression is positive. Contacts with walls add (centre − point of
+/// contact)_i f_j. No kinetic part (thesis eqs 4.1, 6.3).
 TensorSum stress_times_volume(const Packing& packing);
 
-/// V_p σ^p of each owned grain, N·m, in the order of Packing::grains (thesis eqs 4.2, 6.4). Sum over the
+/// V_p σ^p of each owned grain, N·m, in the order of Packing::grains (thesis eqs 4.2, 6.4); a contact with a
+/// wall has the arm from the centre to the point of contact. Sum over the
 /// grains of all ranks equals the sum over contacts, for either arm, if both ends of each contact belong to
 /// the packing.
 std::vector<Mat3> grain_stress_times_volume(const Packing& packing, GrainArm arm);
