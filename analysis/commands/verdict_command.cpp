@@ -105,6 +105,9 @@ void choose_split(const Options& options, const VerdictInput& input, const micro
             ? micromechanics::GradingSplit{*input.constriction.split, "given"}
             : micromechanics::thesis_split(input.grading, 0, input.constriction_limits, input.limits);
     sample.split = input.grading.diameter_at(split.finer);
+    if (std::isnan(sample.split))
+      throw_user_error({kWho, "--split", "not given", "be, as " + curve_end(input.grading),
+                        "the split between fines and coarse grains lies below that"});
     why = fmt::format("{:.3g} % of the grading, {}", 100 * split.finer, split.rule);
   }
   sample.split_origin =

@@ -73,6 +73,9 @@ ConstrictionAnalysis analyse_constrictions(const Grading& grading, const Constri
   check_share("relative density", options.relative_density, false);
   if (options.split) check_share("split", *options.split, true);
   if (options.porosity) check_share("porosity", *options.porosity, true);
+  if (grading.unknown_below() > 0)
+    throw_user_error({"constriction", "grading", curve_end(grading), "be known down to its smallest grain",
+                      "add the size than which no grain is finer, with 0"});
   ConstrictionAnalysis result;
   result.split = options.split ? GradingSplit{*options.split, "given"}
                                : thesis_split(grading, options.relative_density, limits, stability);

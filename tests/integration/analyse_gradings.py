@@ -41,6 +41,22 @@ def good_gradings(run, gradings):
     expect(strict["Kenney and Lau"]["verdict"] == "unstable", "a limit can be set")
 
 
+def ended_curve(run):
+    # 33 % finer than the last sieve: sizes and formulas that need them have no value, and say why.
+    name = run.write("ended.csv", "sieve_mm;percent_passing\n0,074;33\n0,25;42\n0,84;59\n2;77\n4,76;100\n")
+    found = criteria(run, name)
+    for criterion in ("Istomina", "Kenney and Lau", "Burenkova"):
+        expect(found[criterion]["value"] == "" and "the curve ends at 0.074 mm with 33 % finer" in found[criterion]["note"], f"{criterion} needs what is not known")
+    screen = run("grading", name).stdout
+    expect("d10 -, d15 -, d30 -, d50 0.4" in screen and "nan" not in screen, f"no sizes below the end: {screen}")
+    result = run("hydraulic", name, "--porosity", 0.3, "--output", "hydraulic.csv")
+    expect(result.returncode == 0 and "nan" not in result.stdout, result.stdout)
+    of_d10 = [row for row in rows(run.folder / "hydraulic.csv") if "Hazen" in row["quantity"]]
+    expect(of_d10[0]["value"] == "" and "the curve ends" in of_d10[0]["note"], "Hazen's formula needs d10")
+    report = run("verdict", name)
+    expect(report.returncode == 0 and "nan" not in report.stdout and "the curve ends" in report.stdout, "a report on what is known")
+
+
 def rows_without_comments(path):
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     return list(csv.DictReader(lines))
@@ -97,9 +113,9 @@ BAD_FILES = {
     "no number": ("diameter_m,mass_fraction\n1e-3,0.5\n2e-3,nan\n", "line 3"),
     "a word": ("diameter_m,mass_fraction\n1e-3,0.5\ntwo,0.5\n", "'two'"),
     "short row": ("diameter_m,mass_fraction\n1e-3,0.5\n2e-3\n", "line 3"),
-    "empty": ("", "hold a grading"),
+    "empty": ("", "row of names"),
     "header only": ("diameter_m,mass_fraction\n", "at least two"),
-    "no sizes": ("size,mass_fraction\n1,1\n", "diameter_m"),
+    "no sizes": ("name,mass_fraction\n1,1\n", "diameter_m"),
     "two amounts": ("diameter_m,mass_fraction,mass_kg\n1e-3,1,1\n", "2 columns of amounts"),
 }
 
@@ -174,6 +190,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         run = Runner(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder))
         good_gradings(run, gradings)
+        ended_curve(run)
         good_packings(run)
         equal_spheres(run)
         constriction_limits(run, gradings)

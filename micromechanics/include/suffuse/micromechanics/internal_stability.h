@@ -51,6 +51,8 @@ struct StabilityLimits {
   double wan_fell_probability = 0.5;  ///< of the logistic form: unstable above
   double wan_fell_coarse = 80;        ///< 30/log10(d90/d60) up to which stable
   double wan_fell_fine = 22;          ///< 15/log10(d20/d5) from which stable
+  /// Share of the mass below the end of the curve up to which criteria that search the curve may say stable.
+  double unknown_fines = 0.05;
 };
 
 /// A limit that can be set by name.
@@ -60,7 +62,8 @@ struct LimitName {
 };
 const std::vector<LimitName>& limit_names();
 
-/// (H/F)min and where it is. `finer_limit`: the F up to which it was searched.
+/// (H/F)min and where it is. `finer_limit`: the F up to which it was searched. Where the curve ends above
+/// that F: infinity, at F = 0.
 struct ShapeMinimum {
   double ratio = 0;
   double finer = 0;     ///< F
@@ -95,7 +98,9 @@ CriterionResult wan_fell_probability(const Grading& grading, const StabilityLimi
 /// Wan and Fell's slopes of the coarse and the fine part.
 CriterionResult wan_fell_slopes(const Grading& grading, const StabilityLimits& limits = {});
 
-/// All of the above, in the thesis's order.
+/// All of the above, in the thesis's order. A criterion that needs a size below the end of the curve does not
+/// apply, and says where the curve ends; one that searches the curve looks at what is known of it: unstable
+/// there is unstable, stable there only counts where at most `unknown_fines` lie below.
 std::vector<CriterionResult> grading_criteria(const Grading& grading, const StabilityLimits& limits = {});
 
 }  // namespace suffuse::micromechanics
