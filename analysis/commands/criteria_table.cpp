@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/grading_file.h"
+#include "suffuse/analysis/grading_names.h"
 #include "suffuse/analysis/grain_snapshot.h"
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/common/error.h"
@@ -75,7 +76,8 @@ void set_limits(const std::vector<std::string>& words, const std::string& who,
   }
 }
 
-Grading grading_of_file(const std::string& path, const std::string& who) {
+Grading grading_of_file(const std::string& name, const std::string& who) {
+  const std::string path = grading_path(name, who);
   if (!is_dump(path, who)) return read_grading(path, who);
   return Grading::from_grains(diameters_of(read_grain_snapshot(path, who, false)));
 }

@@ -92,6 +92,7 @@ const std::vector<LimitName>& limit_names() {
                                                {"lubochkov", &L::lubochkov},
                                                {"kezdi", &L::kezdi},
                                                {"sherard", &L::sherard},
+                                               {"kezdi_from_finer", &L::kezdi_from_finer},
                                                {"kenney_lau", &L::kenney_lau},
                                                {"kenney_lau_wide_finer", &L::kenney_lau_wide_finer},
                                                {"kenney_lau_narrow_finer", &L::kenney_lau_narrow_finer},
@@ -127,13 +128,13 @@ ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& 
   return least;
 }
 
-SplitMaximum maximum_split_ratio(const Grading& grading) {
+SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer) {
   // Both sizes are straight in log d between the corners of the curve, so the largest ratio is at a split
   // where one of the two meets a corner.
-  std::vector<double> splits{0};
+  std::vector<double> splits{from_finer};
   for (const GradingPoint& corner : grading.curve())
     for (const double split : {(corner.finer - 0.15) / 0.85, corner.finer / 0.85})
-      if (split > 0 && split < 1) splits.push_back(split);
+      if (split > from_finer && split < 1) splits.push_back(split);
   SplitMaximum greatest;
   for (const double split : splits) {
     const double ratio =
@@ -208,8 +209,9 @@ CriterionResult lubochkov(const Grading& grading, const StabilityLimits& limits)
 
 namespace {
 
-CriterionResult split_criterion(const Grading& grading, const char* name, const char* source, double limit) {
-  const SplitMaximum split = maximum_split_ratio(grading);
+CriterionResult split_criterion(const Grading& grading, const char* name, const char* source, double limit,
+                                double from_finer) {
+  const SplitMaximum split = maximum_split_ratio(grading, from_finer);
   return {name,
           "(D15c/d85f)max",
           split.ratio > 0 ? split.ratio : kNaN,
@@ -222,13 +224,16 @@ CriterionResult split_criterion(const Grading& grading, const char* name, const 
 }  // namespace
 
 CriterionResult kezdi(const Grading& grading, const StabilityLimits& limits) {
-  CriterionResult result = split_criterion(grading, "Kezdi", "kezdi1979", limits.kezdi);
+  CriterionResult result =
+      split_criterion(grading, "Kezdi", "kezdi1979", limits.kezdi, limits.kezdi_from_finer);
   result.note += fmt::format("; at {:g} itself chapter 2 says stable, chapter 4 unstable", limits.kezdi);
   return if_searched(result, grading, limits);
 }
 
 CriterionResult sherard(const Grading& grading, const StabilityLimits& limits) {
-  return if_searched(split_criterion(grading, "Sherard", "sherard1979", limits.sherard), grading, limits);
+  return if_searched(
+      split_criterion(grading, "Sherard", "sherard1979", limits.sherard, limits.kezdi_from_finer), grading,
+      limits);
 }
 
 CriterionResult kenney_lau(const Grading& grading, const StabilityLimits& limits) {

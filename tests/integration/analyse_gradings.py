@@ -89,6 +89,38 @@ def good_packings(run):
     expect(both.returncode == 0 and "packing_m" in rows(run.folder / "both.csv")[0], f"grading and packing side by side: {both.stderr}")
 
 
+WIDE = "sieve_mm,percent_passing\n0.125,0\n0.25,12\n0.5,24\n2,25\n8,60\n31.5,100\n"
+
+
+def samples(run, gradings):
+    result = run("sample", "7b", "--grains", 2000, "--output", "b20")
+    expect(result.returncode == 0 and "500 coarse grains take 32188 grains" in result.stdout, result.stdout + result.stderr)
+    classes = rows_without_comments(run.folder / "b20.csv")
+    masses = [float(row["grains"]) * float(row["diameter_m"]) ** 3 for row in classes]
+    expect(all(close(mass / sum(masses), float(row["mass_fraction"]), 1e-4) for mass, row in zip(masses, classes)), "grains have the masses of their classes")
+    expect(close(sum(float(row["grains"]) for row in classes), 2000, 1e-4), "2,000 grains")
+    given = rows_without_comments(gradings / "B20.csv")
+    expect([row["mass_fraction"] for row in classes] == [f"{float(row['mass_fraction']):.12g}" for row in given], "the classes of B20 as they are")
+    variables = dict(line.split(" index ") for line in (run.folder / "b20.inc").read_text().replace("variable ", "").splitlines()[1:])
+    expect(variables["grains"] == "2000" and variables["table_5_1"] == '"B(20%)"' and 1.6e-4 < float(variables["split"]) < 4.5e-4, f"{variables}")
+    templates = (run.folder / "b20_templates.inc").read_text()
+    expect(templates.count("particletemplate/sphere") == 20 and "particledistribution/discrete ${distribution_seed} 20" in templates, templates)
+    found, again = criteria(run, "B20"), criteria(run, "b20.csv")
+    expect(found["Kezdi"]["value"] == again["Kezdi"]["value"], "a name is a grading everywhere, and the classes are one")
+    # 201:1 and 24 % of fines.
+    wide = run.write("wide.csv", WIDE)
+    result = run("sample", wide, "--output", "wide_sample", "--quiet")
+    expect("take 1.209e+06 grains, more than 100000" in result.stdout and "cut at --smallest 0.000272" in result.stdout, result.stdout)
+    result = run("sample", wide, "--smallest", 5.2e-4, "--output", "cut", "--grains", 3000, "--scale", 10)
+    expect("24 % of the mass are finer and left out" in result.stdout and "315" not in result.stdout, result.stdout)
+    sizes = [float(row["diameter_m"]) for row in rows_without_comments(run.folder / "cut.csv")]
+    expect(len(sizes) == 20 and 5.2e-3 < sizes[0] < sizes[-1] < 0.315, f"ten times the sizes: {sizes}")
+    for words, says in ((("nowhere",), "the names are A10"), ((wide, "--smallest", 0.04), "leave more than one size"),
+                        ((wide, "--grains", 1), "2 to 1e9"), ((wide, "--split", 1), "below the largest grain"),
+                        ((run.write("open.csv", WIDE.replace("0.125,0\n", "")),), "cut it there with --smallest 0.00025")):
+        refused(run, f"sample {words}", ("sample", *words, "--output", "no_o"), says, ("no_o",))
+
+
 def equal_spheres(run):
     # Nearly equal grains: Dc35 is the three-grain size in the dense state.
     run.write("equal.csv", "diameter_mm,mass_fraction\n1,0.5\n1.0000001,0.5\n")
@@ -191,6 +223,7 @@ def main():
         run = Runner(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder))
         good_gradings(run, gradings)
         ended_curve(run)
+        samples(run, gradings)
         good_packings(run)
         equal_spheres(run)
         constriction_limits(run, gradings)

@@ -18,6 +18,7 @@ struct GradingPoint {
 struct GradingClass {
   double diameter = 0;
   double mass = 0;
+  bool operator==(const GradingClass&) const = default;
 };
 
 /// The almost horizontal part of a gap-graded curve.
@@ -68,6 +69,8 @@ class Grading {
   double finer_below(double diameter) const;
 
   const std::vector<GradingPoint>& curve() const { return curve_; }
+  /// The classes it was made of, normalised; none where it was made of a curve.
+  const std::vector<GradingClass>& own_classes() const { return classes_; }
   /// The widest gap with between 1 and 99 % of the mass below it; none in a continuous grading.
   const std::optional<GradingGap>& gap() const { return gap_; }
   /// Share of the mass in grains below smallest(), of which the curve says nothing; 0 where it is known

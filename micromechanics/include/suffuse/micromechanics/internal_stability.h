@@ -35,7 +35,9 @@ struct StabilityLimits {
   double lubochkov = 1;                    ///< stable below
   double kezdi = 4;                        ///< D15c/d85f up to which stable
   double sherard = 5;                      ///< the same in Sherard's version
-  double kenney_lau = 1;                  ///< (H/F)min above which stable (1.3 before the discussion of 1986)
+  double kezdi_from_finer =
+      0;                  ///< F from which splits are searched; Table 4.1's ratios are those from 5 % on
+  double kenney_lau = 1;  ///< (H/F)min above which stable (1.3 before the discussion of 1986)
   double kenney_lau_wide_finer = 0.20;    ///< F searched, widely graded
   double kenney_lau_narrow_finer = 0.30;  ///< F searched, narrowly graded, and gap-graded (as Table 4.1 does)
   double kenney_lau_narrow_cu = 3;        ///< C_u up to which a soil is narrowly graded
@@ -72,12 +74,13 @@ struct ShapeMinimum {
 };
 ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& limits = {});
 
-/// max over all splits F of D15 of the coarse over d85 of the fine fraction, exact for the curve.
+/// max over all splits from F = `from_finer` on of D15 of the coarse over d85 of the fine fraction, exact for
+/// the curve.
 struct SplitMaximum {
   double ratio = 0;
   double finer = 0;  ///< split at this F; at a gap the value is the one just beside it
 };
-SplitMaximum maximum_split_ratio(const Grading& grading);
+SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer = 0);
 
 CriterionResult usace(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult istomina(const Grading& grading, const StabilityLimits& limits = {});
