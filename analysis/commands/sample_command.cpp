@@ -11,6 +11,7 @@
 #include "commands/criteria_table.h"
 #include "commands/sample_script.h"
 #include "suffuse/analysis/grading_names.h"
+#include "suffuse/analysis/number_parser.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
 
@@ -22,25 +23,38 @@ using namespace micromechanics;
 constexpr const char* kWho = "sample";
 
 struct Options {
-  std::string grading, output = "sample", name;
-  std::optional<double> grains, smallest, solid_fraction, split;
-  double coarse = 500, scale = 1, affordable = 100000;
+  std::string grading, output = "sample", name, grains;
+  std::optional<double> smallest, solid_fraction, split;
+  double coarse = 500, scale = 1, affordable = 150000;
   std::size_t classes = 20;
-  bool quiet = false;
+  std::uint64_t seed = 32452867;
+  double density = 2650;
+  std::optional<double> box_edge;
+  bool quiet = false, variables_only = false;
 };
+
+/// `--grains`: a number, or `thesis` and none, as many as --coarse takes but for the thesis's samples.
+double grains_wanted(const Options& options, const std::optional<NamedGrading>& named, double for_coarse) {
+  if (options.grains.empty()) return std::ceil(for_coarse);
+  if (options.grains == "thesis") return named ? named->thesis_grains : std::ceil(for_coarse);
+  double grains = 0;
+  if (!parse_number(std::string_view(options.grains), grains) || !(grains >= 2 && grains <= 1e9))
+    throw_user_error({kWho, "--grains", options.grains, "be 2 to 1e9, or thesis", ""});
+  return std::round(grains);
+}
 
 void check(const Options& options) {
   const auto must = [](bool fine, const char* option, double value, const char* rule,
                        const char* remedy = "") {
     if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, remedy});
   };
-  if (options.grains)
-    must(*options.grains >= 2 && *options.grains <= 1e9, "--grains", *options.grains, "be 2 to 1e9");
   if (options.smallest) must(*options.smallest > 0, "--smallest", *options.smallest, "be > 0", "in m");
   if (options.split) must(*options.split > 0, "--split", *options.split, "be > 0", "in m");
   if (options.solid_fraction)
     must(*options.solid_fraction > 0 && *options.solid_fraction < 0.74, "--solid-fraction",
          *options.solid_fraction, "be between 0 and 0.74");
+  if (options.box_edge) must(*options.box_edge > 0, "--box-edge", *options.box_edge, "be > 0", "in m");
+  must(options.density > 0, "--density", options.density, "be > 0");
   must(options.coarse >= 1, "--coarse", options.coarse, "be >= 1");
   must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
   must(options.affordable >= 1, "--affordable", options.affordable, "be >= 1");
@@ -85,7 +99,7 @@ struct Plan {
   double box_edge = 0;
 };
 
-Plan plan_of(const Options& options) {
+Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
   Grading grading = grading_of_file(options.grading, kWho);
   Plan plan{grading, 0, {}, {}, 0, {}, 0};
   if (options.smallest) {
@@ -101,10 +115,10 @@ Plan plan_of(const Options& options) {
   plan.classes = sample_classes(plan.grading, options.classes);
   plan.split = split_of(plan.grading, plan.classes, options);
   plan.for_coarse = grains_with_coarse(plan.classes, options.coarse, plan.split.diameter);
-  const double wanted = options.grains.value_or(std::ceil(plan.for_coarse));
+  const double wanted = grains_wanted(options, named, plan.for_coarse);
   for (GradingClass& one : plan.classes) one.diameter *= options.scale;
   plan.split.diameter *= options.scale;
-  plan.sample = grain_sample(plan.classes, std::round(wanted), plan.split.diameter);
+  plan.sample = grain_sample(plan.classes, wanted, plan.split.diameter);
   plan.box_edge = options.solid_fraction
                       ? std::cbrt(plan.sample.solids / *options.solid_fraction)
                       : placing_box_edge(plan.sample, placing_solid_fraction(plan.classes));
@@ -176,8 +190,9 @@ std::string screen_text(const Options& options, const Plan& plan) {
 
 void run(const Options& options) {
   check(options);
-  const Plan plan = plan_of(options);
-  const std::optional<NamedGrading> named = named_grading(options.grading, kWho);
+  const std::optional<NamedGrading> named =
+      std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kWho);
+  const Plan plan = plan_of(options, named);
   SampleScript script{"",
                       plan.sample,
                       plan.box_edge,
@@ -195,12 +210,20 @@ void run(const Options& options) {
   if (options.solid_fraction) made += fmt::format(" --solid-fraction {:g}", *options.solid_fraction);
   script.title = script.name + ": written by " + made;
   const std::string who = "sample --output";
-  SafeFile variables(options.output + ".inc", who), templates(options.output + "_templates.inc", who),
-      classes(options.output + ".csv", who);
+  if (options.box_edge) script.box_edge = *options.box_edge;
+  SafeFile variables(options.output + ".inc", who);
   write_sample_variables(variables, script);
+  if (options.variables_only) {
+    variables.commit();
+    if (!options.quiet) fmt::print("{}{}", screen_text(options, plan), notes_of(options, plan));
+    return;
+  }
+  SafeFile templates(options.output + "_templates.inc", who), classes(options.output + ".csv", who);
+  SafeFile data(options.output + ".data", who);
+  write_sample_data(data, script, options.density, options.seed);
   write_sample_templates(templates, script);
   write_sample_classes(classes, script);
-  for (SafeFile* file : {&variables, &templates, &classes}) file->commit();
+  for (SafeFile* file : {&variables, &templates, &classes, &data}) file->commit();
   if (!options.quiet) fmt::print("{}", screen_text(options, plan));
   fmt::print("{}", notes_of(options, plan));
 }
@@ -215,7 +238,9 @@ void add_sample(CLI::App& app) {
       ->add_option("PSD", options->grading,
                    "grading: CSV file or dump of grains, as in `grading`, or a name such as B20")
       ->required();
-  command->add_option("--grains", options->grains, "how many; as many as --coarse takes if not given");
+  command->add_option(
+      "--grains", options->grains,
+      "how many, or thesis: as many as it printed for this sample; as many as --coarse takes if not given");
   command->add_option("--coarse", options->coarse, "coarse grains that make a sample (thesis section 4.3)")
       ->capture_default_str();
   command->add_option("--smallest", options->smallest, "leave out grains below this diameter, m");
@@ -229,8 +254,15 @@ void add_sample(CLI::App& app) {
   command->add_option("--affordable", options->affordable, "number of grains above which to warn")
       ->capture_default_str();
   command->add_option("--name", options->name, "of the sample; the grading's if not given");
-  command->add_option("--output", options->output, "STEM: writes STEM.inc, STEM_templates.inc, STEM.csv")
+  command
+      ->add_option("--output", options->output,
+                   "STEM: writes STEM.inc, STEM.data, STEM_templates.inc, STEM.csv")
       ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the places; another one gives another sample")
+      ->capture_default_str();
+  command->add_option("--density", options->density, "of the grains, kg/m3")->capture_default_str();
+  command->add_option("--box-edge", options->box_edge, "of the cube that the grains are placed in, m");
+  command->add_flag("--variables-only", options->variables_only, "write STEM.inc only");
   command->add_flag("--quiet", options->quiet, "notes and warnings only");
   command->callback([options] { run(*options); });
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "suffuse/micromechanics/coordination.h"
+#include "suffuse/micromechanics/random_placement.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -39,7 +40,7 @@ void write_sample_variables(SafeFile& file, const SampleScript& script) {
     file.write(fmt::format("variable {} index \"{}\"\n", name, value));
   };
   text("sample_name", script.name);
-  number("grains", sample.grains);
+  number("sample_grains", sample.grains);
   number("coarse_grains", sample.coarse);
   number("split", sample.split);
   number("fines_share", sample.fines_share);
@@ -47,8 +48,10 @@ void write_sample_variables(SafeFile& file, const SampleScript& script) {
   number("smallest_diameter", sample.classes.front().diameter);
   number("largest_diameter", sample.classes.back().diameter);
   number("skin", kSkin * sample.classes.front().diameter);
-  text("table_4_1", or_none(script.table_4_1));
-  text("table_5_1", or_none(script.table_5_1));
+  // Lines of sample.toml: a script cannot put a variable's value between quotes.
+  for (const auto& [name, value] :
+       {std::pair{"table_4_1", script.table_4_1}, std::pair{"table_5_1", script.table_5_1}})
+    file.write(fmt::format("variable row_{0} index '{0} = \"{1}\"'\n", name, or_none(value)));
 }
 
 void write_sample_templates(SafeFile& file, const SampleScript& script) {
@@ -71,6 +74,21 @@ void write_sample_templates(SafeFile& file, const SampleScript& script) {
     file.write(fmt::format("{} template{} {:.9g}", (classes.size() - k) % 10 == 1 ? " &\n   " : "",
                            classes.size() - k, classes[k].mass));
   file.write("\n");
+}
+
+void write_sample_data(SafeFile& file, const SampleScript& script, double density, std::uint64_t seed) {
+  const std::vector<std::size_t> numbers = micromechanics::whole_numbers(script.sample);
+  std::vector<double> diameters;
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    diameters.insert(diameters.end(), numbers[k], script.sample.classes[k].diameter);
+  const auto grains = micromechanics::place_at_random(diameters, script.box_edge, seed);
+  file.write(fmt::format("{}, seed {}\n\n{} atoms\n1 atom types\n", script.title, seed, grains.size()));
+  for (const char axis : {'x', 'y', 'z'})
+    file.write(fmt::format("0 {:.9g} {}lo {}hi\n", script.box_edge, axis, axis));
+  file.write("\nAtoms\n\n");
+  for (std::size_t k = 0; k < grains.size(); ++k)
+    file.write(fmt::format("{} 1 {:.9g} {:.9g} {:.12g} {:.12g} {:.12g}\n", k + 1, grains[k].diameter, density,
+                           grains[k].centre.x(), grains[k].centre.y(), grains[k].centre.z()));
 }
 
 void write_sample_classes(SafeFile& file, const SampleScript& script) {

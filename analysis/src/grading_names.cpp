@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suffuse/analysis/csv_file.h"
+#include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/project_files.h"
 #include "suffuse/common/error.h"
 
@@ -28,11 +29,16 @@ std::vector<NamedGrading> all_named(const std::string& who) {
       return static_cast<std::size_t>(at - table.names.begin());
     };
     const std::size_t name = column("name"), file = column("file"), of_4_1 = column("table_4_1"),
-                      of_5_1 = column("table_5_1");
+                      of_5_1 = column("table_5_1"), grains = column("thesis_grains");
     std::vector<NamedGrading> all;
-    for (const CsvFile::Row& row : table.rows)
-      all.push_back(
-          {row.cells[name], (folder / row.cells[file]).string(), row.cells[of_4_1], row.cells[of_5_1]});
+    for (const CsvFile::Row& row : table.rows) {
+      NamedGrading one{row.cells[name], (folder / row.cells[file]).string(), row.cells[of_4_1],
+                       row.cells[of_5_1], 0};
+      if (!parse_number(std::string_view(row.cells[grains]), one.thesis_grains))
+        throw_user_error({who, fmt::format("{}, line {}", (folder / "samples.csv").string(), row.line),
+                          row.cells[grains], "be a number of grains", ""});
+      all.push_back(std::move(one));
+    }
     return all;
   }
   return {};

@@ -101,6 +101,27 @@ GrainSample grain_sample(std::span<const GradingClass> classes, double grains, d
   return sample;
 }
 
+std::vector<std::size_t> whole_numbers(const GrainSample& sample) {
+  std::vector<std::size_t> numbers, order;
+  std::size_t left = static_cast<std::size_t>(std::round(sample.grains));
+  for (const SampleClass& one : sample.classes) {
+    order.push_back(numbers.size());
+    numbers.push_back(static_cast<std::size_t>(one.grains));
+    left -= std::min(left, numbers.back());
+  }
+  const auto remainder = [&](std::size_t k) {
+    return sample.classes[k].grains - static_cast<double>(numbers[k]);
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return remainder(a) > remainder(b); });
+  for (const std::size_t k : order) {
+    if (left == 0) break;
+    ++numbers[k];
+    --left;
+  }
+  return numbers;
+}
+
 double grains_with_coarse(std::span<const GradingClass> classes, double coarse, double split) {
   const double share = grain_sample(classes, 1, split).coarse;
   return share > 0 ? coarse / share : std::numeric_limits<double>::infinity();

@@ -10,6 +10,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/grain_sample.h"
 #include "suffuse/micromechanics/internal_stability.h"
+#include "suffuse/micromechanics/random_placement.h"
 
 using namespace suffuse;
 using namespace suffuse::micromechanics;
@@ -130,4 +131,45 @@ TEST_CASE("recovered gradings have the ratios of Kezdi, and of Kenney and Lau, t
           Approx(row.kenney_lau).epsilon(row.kenney_lau_tolerance).margin(1e-12));
   }
   CHECK(maximum_split_ratio(grading_file("B10")).ratio == Approx(6.109).epsilon(1e-3));  // of all splits
+}
+
+TEST_CASE("whole numbers of grains add up, and no class is off by a grain") {
+  const GrainSample sample = grain_sample(sample_classes(grading_file("B20")), 777, 2.5e-4);
+  const std::vector<std::size_t> numbers = whole_numbers(sample);
+  CHECK(std::accumulate(numbers.begin(), numbers.end(), std::size_t{0}) == 777);
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    CHECK(std::abs(static_cast<double>(numbers[k]) - sample.classes[k].grains) < 1);
+}
+
+TEST_CASE(
+    "grains placed at random touch none, through the sides either, and stand there again with the same "
+    "seed") {
+  // Three sizes 12:1, so that the grids of several levels are passed; half of the box is solid.
+  std::vector<double> diameters(40, 1.2e-3);
+  diameters.insert(diameters.end(), 300, 4e-4);
+  diameters.insert(diameters.end(), 3000, 1e-4);
+  double solids = 0;
+  for (const double d : diameters) solids += 3.14159265358979 / 6 * d * d * d;
+  const double edge = std::cbrt(solids / 0.4);
+  const auto grains = place_at_random(diameters, edge, 7);
+  REQUIRE(grains.size() == diameters.size());
+  double nearest = 1;
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    for (std::size_t j = i + 1; j < grains.size(); ++j) {
+      Vec3 apart = grains[i].centre - grains[j].centre;
+      for (int axis = 0; axis < 3; ++axis) apart[axis] -= edge * std::round(apart[axis] / edge);
+      nearest = std::min(nearest, apart.norm() - (grains[i].diameter + grains[j].diameter) / 2);
+    }
+  CHECK(nearest > 0);
+  const auto again = place_at_random(diameters, edge, 7), other = place_at_random(diameters, edge, 8);
+  CHECK(again.back().centre == grains.back().centre);
+  CHECK(other.back().centre != grains.back().centre);
+  // Uniform: the mean of so many centres is the middle, within four standard errors of edge/sqrt(12 n).
+  Vec3 mean = Vec3::Zero();
+  for (const PlacedGrain& grain : grains) mean += grain.centre / static_cast<double>(grains.size());
+  CHECK((mean / edge - Vec3::Constant(0.5)).cwiseAbs().maxCoeff() <
+        4 / std::sqrt(12.0 * static_cast<double>(grains.size())));
+  CHECK_THROWS_AS(place_at_random(std::vector<double>{1e-3}, 0.9e-3, 1), UserError);
+  // A grain as wide as a third of the box, in which no cell is left out.
+  CHECK(place_at_random(std::vector<double>(8, 1e-3), 2.9e-3, 3).size() == 8);
 }

@@ -10,6 +10,7 @@ struct NamedGrading {
   std::string name;                  ///< B20
   std::string path;                  ///< of its grading
   std::string table_4_1, table_5_1;  ///< its names in the thesis's tables; may be empty
+  double thesis_grains = 0;          ///< printed number of grains
 };
 
 /// Found by its name or one of the thesis's, "7b", "B(20%)"; none otherwise. The table is looked for in

@@ -41,6 +41,10 @@ CutGrading cut_below(const Grading& grading, double smallest);
 /// n_i = N (m_i/d_i³)/Σ(m_j/d_j³): the numbers of grains that have these masses.
 GrainSample grain_sample(std::span<const GradingClass> classes, double grains, double split);
 
+/// Whole numbers of grains of each class that add up to the sample's: each rounded down, what is left to
+/// those with the largest remainders.
+std::vector<std::size_t> whole_numbers(const GrainSample& sample);
+
 /// How many grains have so many coarse ones; infinite where none is coarse.
 double grains_with_coarse(std::span<const GradingClass> classes, double coarse, double split);
 
