@@ -11,6 +11,7 @@
 #include "commands/hydraulic_command.h"
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
+#include "commands/sample_command.h"
 #include "commands/verdict_command.h"
 #include "suffuse/common/error.h"
 
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   suffuse::analysis::add_contacts(app);
   suffuse::analysis::add_grading(app);
+  suffuse::analysis::add_sample(app);
   suffuse::analysis::add_constriction(app);
   suffuse::analysis::add_hydraulic(app);
   suffuse::analysis::add_fluidisation(app);

@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/grading_file.h"
+#include "suffuse/analysis/grading_names.h"
 #include "suffuse/analysis/grain_snapshot.h"
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/common/error.h"
@@ -75,24 +76,26 @@ void set_limits(const std::vector<std::string>& words, const std::string& who,
   }
 }
 
-Grading grading_of_file(const std::string& path, const std::string& who) {
+Grading grading_of_file(const std::string& name, const std::string& who) {
+  const std::string path = grading_path(name, who);
   if (!is_dump(path, who)) return read_grading(path, who);
   return Grading::from_grains(diameters_of(read_grain_snapshot(path, who, false)));
 }
 
 std::string grading_text(const Grading& grading) {
   const micromechanics::GradingIndices d = micromechanics::grading_indices(grading);
-  std::string text = fmt::format(
-      "sizes in mm: d5 {:.4g}, d10 {:.4g}, d15 {:.4g}, d30 {:.4g}, d50 {:.4g}, d60 {:.4g}, d85 {:.4g}, d90 "
-      "{:.4g}\n",
-      1e3 * d.d5, 1e3 * d.d10, 1e3 * d.d15, 1e3 * d.d30, 1e3 * d.d50, 1e3 * d.d60, 1e3 * d.d85, 1e3 * d.d90);
-  text += fmt::format("Cu {:.4g}, Cc {:.4g}, Sauter's size {:.4g} mm; ", d.uniformity, d.curvature,
-                      1e3 * d.sauter);
+  const auto mm = [](double diameter) { return value_text(1e3 * diameter); };
+  std::string text =
+      fmt::format("sizes in mm: d5 {}, d10 {}, d15 {}, d30 {}, d50 {}, d60 {}, d85 {}, d90 {}\n", mm(d.d5),
+                  mm(d.d10), mm(d.d15), mm(d.d30), mm(d.d50), mm(d.d60), mm(d.d85), mm(d.d90));
+  text += fmt::format("Cu {}, Cc {}, Sauter's size {} mm; ", value_text(d.uniformity),
+                      value_text(d.curvature), mm(d.sauter));
   if (const auto& gap = grading.gap())
     text += fmt::format("gap-graded: ratio {:.4g} ({:.4g} to {:.4g} mm), {:.3g} % fines\n", gap->ratio(),
                         1e3 * gap->finer_diameter, 1e3 * gap->coarser_diameter, 100 * gap->finer);
   else
     text += "continuously graded\n";
+  if (grading.unknown_below() > 0) text += curve_end(grading) + ": what lies below is not defined (-)\n";
   return text;
 }
 

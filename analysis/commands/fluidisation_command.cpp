@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -133,9 +134,14 @@ void add_conductivity(ResultRows& rows, const Run& run, const Options& options) 
            fmt::format("{} states at i = {:g} to {:g} of Terzaghi's; standard error {:.2g} %", line.points,
                        options.window[0], options.window[1], 100 * line.slope_error / line.slope));
   if (options.grading.empty()) return;
-  const GradingIndices sizes = grading_indices(grading_of_file(options.grading, kWho));
+  const Grading grading = grading_of_file(options.grading, kWho);
+  const GradingIndices sizes = grading_indices(grading);
   const double kozeny = conductivity_carman_kozeny(sizes.sauter, run.record.porosity, options.fluid);
+  const auto unknown = [&](const char* name, const char* symbol, const char* source) {
+    rows.add(name, symbol, std::nullopt, "m/s", source, "not applicable: " + curve_end(grading));
+  };
   const auto beside = [&](const char* name, double value, const char* source, std::string note) {
+    if (std::isnan(value)) return unknown(name, "k", source);
     rows.add(name, "k", value, "m/s", source,
              fmt::format("measured {:+.1f} % of it; {}", 100 * (line.slope / value - 1), note));
   };
@@ -145,6 +151,7 @@ void add_conductivity(ResultRows& rows, const Run& run, const Options& options) 
   beside("conductivity, Hazen", conductivity_hazen(sizes.d10), "hazen1892",
          fmt::format("d10 {:.4g} mm", 1e3 * sizes.d10));
   const double velocity = velocity_ergun(run.terzaghi, sizes.sauter, run.record.porosity, options.fluid);
+  if (std::isnan(velocity)) return unknown("velocity at Terzaghi's gradient, Ergun", "v", "ergun1952");
   rows.add("velocity at Terzaghi's gradient, Ergun", "v", velocity, "m/s", "ergun1952",
            fmt::format("Re = v d/nu = {:.3g}", velocity * sizes.sauter / options.fluid.kinematic_viscosity));
 }

@@ -39,9 +39,10 @@ void add_grading(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand(kWho, "Particle size distribution: sizes, Cu, Cc, gap, and the criteria on it");
   command
-      ->add_option("PSD", options->file,
-                   "CSV file with diameter_m or diameter_mm (or radius_m) and mass_fraction, mass_kg or "
-                   "percent_finer; or a dump of grains (its last snapshot)")
+      ->add_option(
+          "PSD", options->file,
+          "CSV file with a column of sizes (diameter_mm, sieve_mm, sieve_no, ...) and one of amounts "
+          "(percent_finer, retained_mass_g, mass_fraction, ...); or a dump of grains (its last snapshot)")
       ->required();
   command->add_option("--output", options->output, "CSV file with the criteria");
   command->add_option("--curve", options->curve, "CSV file with the cumulative curve");

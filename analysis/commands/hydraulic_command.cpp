@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "commands/criteria_table.h"
 #include "commands/hydraulic_table.h"
+#include "suffuse/analysis/csv_file.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -28,12 +30,14 @@ void run(Options& options) {
     SafeFile file(options.output, "hydraulic --output");
     file.write("quantity,symbol,value,unit,source,note\n");
     for (const HydraulicRow& row : rows)
-      file.write(fmt::format("\"{}\",{},{},{},{},\"{}\"\n", row.quantity, row.symbol, row.value, row.unit,
-                             row.source, row.note));
+      file.write(fmt::format("{},{},{},{},{},{}\n", csv_text(row.quantity), row.symbol,
+                             std::isnan(row.value) ? std::string() : fmt::format("{}", row.value), row.unit,
+                             row.source, csv_text(row.note)));
     file.commit();
   }
   for (const HydraulicRow& row : rows)
-    fmt::print("{:<52} {:<4} = {:>10.4g} {:<3}  {:<18}  {}\n", row.quantity, row.symbol, row.value, row.unit,
+    fmt::print("{:<52} {:<4} = {:>10} {:<3}  {:<18}  {}\n", row.quantity, row.symbol,
+               std::isnan(row.value) ? std::string("-") : fmt::format("{:.4g}", row.value), row.unit,
                row.source, row.note);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "suffuse/common/error.h"
 
 namespace suffuse::analysis {
@@ -69,6 +71,8 @@ std::vector<HydraulicRow> hydraulic_rows(const HydraulicInput& options,
       {"velocity at Terzaghi's gradient, Ergun", "U", "m/s", "ergun1952",
        fmt::format("Re = U d/nu = {:.3g}", velocity * sizes.sauter / options.fluid.kinematic_viscosity),
        velocity});
+  for (HydraulicRow& row : rows)
+    if (std::isnan(row.value)) row.note = "not applicable: " + curve_end(grading);
   return rows;
 }
 

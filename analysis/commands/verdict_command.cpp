@@ -105,10 +105,14 @@ void choose_split(const Options& options, const VerdictInput& input, const micro
             ? micromechanics::GradingSplit{*input.constriction.split, "given"}
             : micromechanics::thesis_split(input.grading, 0, input.constriction_limits, input.limits);
     sample.split = input.grading.diameter_at(split.finer);
+    if (std::isnan(sample.split))
+      throw_user_error({kWho, "--split", "not given", "be, as " + curve_end(input.grading),
+                        "the split between fines and coarse grains lies below that"});
     why = fmt::format("{:.3g} % of the grading, {}", 100 * split.finer, split.rule);
   }
-  sample.split_origin =
-      fmt::format("Last snapshot. Fines are the grains below {:.4g} mm ({}).", 1e3 * sample.split, why);
+  sample.split_origin = fmt::format("{} snapshot. Fines are the grains below {:.4g} mm ({}).",
+                                    options.flow.empty() ? "Last" : "First", 1e3 * sample.split, why);
+  sample.at_rest = !options.flow.empty();
 }
 
 std::string names_of(const std::vector<std::string>& paths) {
@@ -118,12 +122,17 @@ std::string names_of(const std::vector<std::string>& paths) {
   return text;
 }
 
-std::optional<Snapshot> last_snapshot(Options& options) {
+/// The last snapshot; with a run of upward flow the first, in which the bed is at rest: its last one is
+/// lifted.
+std::optional<Snapshot> judged_snapshot(Options& options) {
   if (options.read.files.empty()) return std::nullopt;
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   Snapshot snapshot;
   bool found = false;
-  while (series->next(snapshot)) found = true;
+  while (series->next(snapshot)) {
+    found = true;
+    if (!options.flow.empty()) break;
+  }
   if (!found)
     throw_user_error(
         {kWho, "--sample", options.read.files.front(), "hold a snapshot of grains and contacts", ""});
@@ -221,7 +230,7 @@ void run(Options& options) {
   check(options);
   options.constriction.fractions = fraction_names().at(options.fractions);
   options.constriction.pore = pore_names().at(options.pore);
-  const std::optional<Snapshot> snapshot = last_snapshot(options);
+  const std::optional<Snapshot> snapshot = judged_snapshot(options);
   const VerdictInput input = input_of(options, snapshot);
   VerdictFindings findings = find_verdicts(input, measure_sample(options, input, snapshot));
   if (!options.flow.empty())

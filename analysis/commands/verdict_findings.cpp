@@ -101,6 +101,59 @@ std::vector<HydraulicInput::Alpha> alphas(const VerdictInput& input, const Verdi
   return all;
 }
 
+constexpr const char* kChapter4 = "Chapter 4 of the thesis";
+
+const CriterionResult* find(const std::vector<CriterionResult>& results, std::string_view name) {
+  const auto at = std::find_if(results.begin(), results.end(),
+                               [&](const CriterionResult& result) { return result.criterion == name; });
+  return at == results.end() ? nullptr : &*at;
+}
+
+/// Chapter 4's criterion with every split that the sources allow.
+std::vector<SplitFinding> by_split(const VerdictInput& input) {
+  const std::vector<GradingSplit> splits =
+      allowed_splits(input.grading, input.constriction_limits, input.limits);
+  if (input.constriction.split || splits.size() < 2) return {};
+  std::vector<SplitFinding> found;
+  for (const GradingSplit& split : splits) {
+    ConstrictionOptions options = input.constriction;
+    options.split = split.finer;
+    const auto at = [&](double density) {
+      options.relative_density = density;
+      return *find(constriction_criteria(
+                       analyse_constrictions(input.grading, options, input.constriction_limits, input.limits),
+                       options, input.constriction_limits),
+                   kChapter4);
+    };
+    SplitFinding one{split, at(input.relative_density.value_or(0)), std::nullopt};
+    if (!input.relative_density) one.densest = at(1);
+    found.push_back(std::move(one));
+  }
+  return found;
+}
+
+/// Whether the splits part, at one of the densities.
+bool hangs_on_split(const VerdictFindings& findings) {
+  return std::any_of(findings.splits.begin(), findings.splits.end(), [&](const SplitFinding& one) {
+    const SplitFinding& first = findings.splits.front();
+    return one.loosest.verdict != first.loosest.verdict ||
+           (one.densest && one.densest->verdict != first.densest->verdict);
+  });
+}
+
+/// "1.87 (unstable) cut at 25 % (at the gap), 0.42 (stable) cut at 20 % (chapter 4, dense)".
+std::string split_list(const VerdictFindings& findings) {
+  std::string text;
+  for (const SplitFinding& one : findings.splits) {
+    const std::string dense = one.densest ? fmt::format(" loosest and {:.3g} ({}) densest",
+                                                        one.densest->value, to_string(one.densest->verdict))
+                                          : std::string();
+    text += fmt::format("{}{:.3g} ({}){}, cut at {:.3g} % ({})", text.empty() ? "" : "; ", one.loosest.value,
+                        to_string(one.loosest.verdict), dense, 100 * one.split.finer, one.split.rule);
+  }
+  return text;
+}
+
 /// The criteria on constrictions, or why there are none: a grading of one size cannot be cut.
 void add_constrictions(const VerdictInput& input, VerdictFindings& findings) {
   try {
@@ -110,6 +163,7 @@ void add_constrictions(const VerdictInput& input, VerdictFindings& findings) {
     findings.analysis =
         analyse_constrictions(input.grading, options, input.constriction_limits, input.limits);
     findings.constriction = constriction_criteria(*findings.analysis, options, input.constriction_limits);
+    findings.splits = by_split(input);
     if (input.relative_density) return;
     options.relative_density = 1;
     findings.constriction_densest = constriction_criteria(
@@ -121,12 +175,6 @@ void add_constrictions(const VerdictInput& input, VerdictFindings& findings) {
     findings.constriction.clear();
     findings.no_constrictions = problem.what();
   }
-}
-
-const CriterionResult* find(const std::vector<CriterionResult>& results, std::string_view name) {
-  const auto at = std::find_if(results.begin(), results.end(),
-                               [&](const CriterionResult& result) { return result.criterion == name; });
-  return at == results.end() ? nullptr : &*at;
 }
 
 /// "Indraratna 2007 (filter)": commas are for lists.
@@ -260,30 +308,39 @@ std::string headline(const VerdictInput& input, const VerdictFindings& findings)
   if (!findings.measured.empty()) {
     const Record& record = findings.sample->record;
     const std::string numbers =
-        fmt::format("Z = {}, alpha = {}", measured_text(record, "coordination_number"),
-                    measured_text(record, "alpha_pair_halves"));
+        fmt::format("{} contacts a grain (Z), fines under {} of the mean stress (alpha)",
+                    measured_text(record, "coordination_number"), measured_text(record, "alpha_pair_halves"));
+    const char* where =
+        findings.sample->at_rest ? "measured on the sample at rest" : "measured on the sample";
+    const ConstrictionLimits& limits = input.constriction_limits;
     if (findings.measured[0].verdict != findings.measured[1].verdict)
       return fmt::format(
-          "Between stable and unstable, measured on the sample ({}): one of the two numbers of chapter 4 is "
-          "beyond its limit, the other is not.",
-          numbers);
-    return fmt::format("Internally {}, measured on the sample ({}), by both wordings of chapter 4.",
-                       to_string(findings.measured[0].verdict), numbers);
+          "Between stable and unstable, {}: {}. One of the two is beyond its limit ({:g} and {:g}), the "
+          "other is not.",
+          where, numbers, limits.coordination, limits.stress_reduction);
+    return fmt::format("Internally {}, {}: {}. The limits are {:g} and {:g}.",
+                       to_string(findings.measured[0].verdict), where, numbers, limits.coordination,
+                       limits.stress_reduction);
   }
-  if (const CriterionResult* at = find(findings.constriction, "Chapter 4 of the thesis")) {
+  const double limit = input.constriction_limits.chapter_4;
+  constexpr const char* kRatio = "the pores' controlling constriction over the larger fine grains (Dc35/d85)";
+  if (hangs_on_split(findings))
+    return fmt::format(
+        "It depends on the split, where the grading is cut into coarse and fine part: {} is {}; unstable "
+        "from {:g}.",
+        kRatio, split_list(findings), limit);
+  if (const CriterionResult* at = find(findings.constriction, kChapter4)) {
     const CriterionResult* dense = find(findings.constriction_densest, at->criterion);
     if (dense != nullptr && dense->verdict != at->verdict)
       return fmt::format(
-          "It depends on the density: Dc35/d85 is {:.3g} in the loosest state ({}), {:.3g} in the densest "
-          "({}); "
-          "the thesis's limit is {:g}.",
-          at->value, to_string(at->verdict), dense->value, to_string(dense->verdict),
-          input.constriction_limits.chapter_4);
+          "It depends on the density: {} is {:.3g} in the loosest state ({}), {:.3g} in the densest ({}); "
+          "unstable from {:g}.",
+          kRatio, at->value, to_string(at->verdict), dense->value, to_string(dense->verdict), limit);
     return fmt::format(
-        "Internally {} by the constriction criterion of chapter 4 (Dc35/d85 = {:.3g}{}); no sample was "
-        "measured.",
-        to_string(at->verdict), at->value,
-        dense != nullptr ? fmt::format(" in the loosest, {:.3g} in the densest state", dense->value) : "");
+        "Internally {}: {} is {:.3g}{}; unstable from {:g}. No sample was measured.", to_string(at->verdict),
+        kRatio, at->value,
+        dense != nullptr ? fmt::format(" in the loosest, {:.3g} in the densest state", dense->value) : "",
+        limit);
   }
   const std::optional<Verdict> most = leaning(findings.grading);
   return fmt::format("{}: only criteria on grain sizes apply, and they do not know the density.",
@@ -330,6 +387,11 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
                     "the others scattered.",
                     to_string(*by_sizes), to_string(*by_pores)));
   add_density_sentence(findings, sentences);
+  if (hangs_on_split(findings))
+    sentences.push_back(
+        fmt::format("Chapter 4's constriction criterion hangs on the split: {}. The table has the split "
+                    "of chapter 4 at this density.",
+                    split_list(findings)));
   if (!findings.measured.empty()) {
     const std::optional<Verdict> lean = by_pores ? by_pores : by_sizes;
     const Verdict measured = findings.measured[0].verdict;
@@ -339,7 +401,12 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
                       to_string(measured), by_pores ? "constrictions" : "grain sizes", to_string(*lean)));
     add_sample_sentences(input, findings, sentences);
   }
-  if (sentences.empty()) sentences.emplace_back("None: all groups of criteria are of one mind.");
+  if (sentences.empty()) {
+    const std::vector<std::string> agreed = agreement_sentences(findings);
+    sentences.emplace_back(agreed.size() > 2
+                               ? "Whole groups differ, as told above; within each all are of one mind."
+                               : "None: all groups of criteria are of one mind.");
+  }
   return sentences;
 }
 

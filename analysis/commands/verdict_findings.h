@@ -34,6 +34,7 @@ struct VerdictInput {
 struct SampleFindings {
   std::int64_t step = 0;
   std::string files;         ///< in words
+  bool at_rest = false;      ///< the first snapshot of a run with upward flow, not the last
   std::string split_origin;  ///< why the fines are those that they are
   double split = 0;          ///< m
   double friction = 0;
@@ -52,12 +53,20 @@ struct CriteriaGroup {
   std::optional<micromechanics::Verdict> common() const;
 };
 
+/// What chapter 4's constriction criterion says for one of the splits that the sources allow.
+struct SplitFinding {
+  micromechanics::GradingSplit split;
+  micromechanics::CriterionResult loosest;                 ///< or at the relative density, where it is known
+  std::optional<micromechanics::CriterionResult> densest;  ///< where it is not
+};
+
 struct VerdictFindings {
   std::vector<micromechanics::CriterionResult> grading, constriction;
   /// At the relative density, or in the loosest state where it is not known.
   std::optional<micromechanics::ConstrictionAnalysis> analysis;
   std::vector<micromechanics::CriterionResult> constriction_densest;  ///< where the density is not known
   std::string no_constrictions;                                       ///< why there is no analysis
+  std::vector<SplitFinding> splits;  ///< with more than one, none where the user gave the split
   std::optional<SampleFindings> sample;
   std::vector<micromechanics::CriterionResult> measured;  ///< chapter 4's boundary on the sample
   std::vector<HydraulicRow> hydraulic;                    ///< empty without a porosity

@@ -78,7 +78,7 @@ void add_grading(ReportDocument& report, const VerdictInput& input, const Verdic
                  const std::vector<VerdictFigure>& figures, const std::string& links) {
   report.heading("Grading");
   const GradingIndices d = grading_indices(input.grading);
-  const auto mm = [](double diameter) { return fmt::format("{:.4g}", 1e3 * diameter); };
+  const auto mm = [](double diameter) { return number(1e3 * diameter); };
   report.table({{"d5", "d10", "d15", "d30", "d50", "d60", "d85", "d90", "Cu", "Cc"},
                 {{mm(d.d5), mm(d.d10), mm(d.d15), mm(d.d30), mm(d.d50), mm(d.d60), mm(d.d85), mm(d.d90),
                   number(d.uniformity), number(d.curvature)}}});
@@ -89,6 +89,9 @@ void add_grading(ReportDocument& report, const VerdictInput& input, const Verdic
                     1e3 * gap->finer_diameter, 1e3 * gap->coarser_diameter, gap->ratio(), 100 * gap->finer);
   else
     text += "Continuously graded.";
+  if (input.grading.unknown_below() > 0)
+    text +=
+        fmt::format(" Not known whole: {}; what needs more is not defined (-).", curve_end(input.grading));
   report.paragraph(text);
   add_figures(report, figures, VerdictFigure::Of::grading, links);
   report.heading("Criteria on grain sizes");

@@ -63,31 +63,6 @@ double number_in(const std::string& text, const CsvCell& cell, const std::string
 
 }  // namespace
 
-std::vector<std::string> csv_cells(const std::string& line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    if (line[k] == '"') {
-      if (quoted && k + 1 < line.size() && line[k + 1] == '"')
-        cells.back() += line[++k];
-      else
-        quoted = !quoted;
-    } else if (line[k] == ',' && !quoted) {
-      cells.emplace_back();
-    } else {
-      cells.back() += line[k];
-    }
-  }
-  return cells;
-}
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
 double read_csv_cell(const CsvCell& cell, const std::string& who) {
   const Table table = read_table(cell.file, who);
   const std::size_t column = column_of(table, cell.column, cell.file, who);

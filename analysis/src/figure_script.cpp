@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "suffuse/analysis/project_files.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::analysis {
@@ -36,13 +37,7 @@ int run(const std::vector<std::string>& words, bool silent) {
 }
 
 std::string find_script(const std::string& script, const std::string& who) {
-  std::vector<files::path> folders;
-  if (const char* given = std::getenv("SUFFUSE_FIGURES")) folders.emplace_back(given);
-  files::path above = program_folder();
-  folders.push_back(above.parent_path() / "share/suffuse/figures");
-  for (; above.has_relative_path(); above = above.parent_path())
-    folders.push_back(above / "analysis/figures");
-  for (const files::path& folder : folders)
+  for (const files::path& folder : project_folders("SUFFUSE_FIGURES", "figures", "analysis/figures"))
     if (files::is_regular_file(folder / script)) return (folder / script).string();
   throw_user_error({who, "figure", script, "find the script",
                     "set SUFFUSE_FIGURES to the folder share/suffuse/figures of the installation"});
@@ -61,11 +56,6 @@ std::string find_python(const std::string& who) {
 }
 
 }  // namespace
-
-files::path program_folder() {
-  std::error_code ignored;
-  return files::read_symlink("/proc/self/exe", ignored).parent_path();
-}
 
 void make_figure(const std::string& script, const std::vector<std::string>& arguments,
                  const std::string& who) {

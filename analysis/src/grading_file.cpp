@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
+#include <optional>
 
+#include "suffuse/analysis/csv_file.h"
+#include "suffuse/analysis/decimal_mark.h"
+#include "suffuse/analysis/sieve_columns.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::analysis {
@@ -17,116 +21,169 @@ using micromechanics::Grading;
 using micromechanics::GradingClass;
 using micromechanics::GradingPoint;
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (std::size_t start = 0; start <= line.size();) {
-    const auto comma = std::min(line.find(',', start), line.size());
-    cells.push_back(trimmed(line.substr(start, comma - start)));
-    start = comma + 1;
-  }
-  return cells;
-}
-
-struct Names {
-  std::size_t size = 0, amount = 0;
-  double to_diameter_in_metres = 1;
-  std::string amount_name;
+/// A row of the table, in m and in the unit of its amounts.
+struct Size {
+  double diameter = 0;
+  double amount = 0;
+  std::string where;  ///< file and line
 };
 
-/// Where the sizes and the amounts stand; the file must have one of each.
-Names columns_of(const std::vector<std::string>& header, const std::string& path, const std::string& who) {
-  Names names;
-  int sizes = 0, amounts = 0;
-  for (std::size_t i = 0; i < header.size(); ++i) {
-    const std::string& name = header[i];
-    if (name == "diameter_m" || name == "diameter_mm" || name == "radius_m") {
-      names.size = i;
-      names.to_diameter_in_metres = name == "diameter_m" ? 1 : name == "radius_m" ? 2 : 1e-3;
-      ++sizes;
-    }
-    if (name == "mass_fraction" || name == "mass_kg" || name == "percent_finer") {
-      names.amount = i;
-      names.amount_name = name;
-      ++amounts;
-    }
-  }
-  if (sizes != 1)
-    throw_user_error({who, path, fmt::format("{} columns of sizes", sizes),
-                      "have one column diameter_m, diameter_mm or radius_m", "name it in the first row"});
-  if (amounts != 1)
-    throw_user_error({who, path, fmt::format("{} columns of amounts", amounts),
-                      "have one column mass_fraction, mass_kg or percent_finer", "name it in the first row"});
-  return names;
-}
+struct Table {
+  SieveColumns columns;
+  std::vector<Size> sizes;    ///< from the finest to the coarsest
+  std::optional<double> pan;  ///< the amount that passes all sieves, where it is given
+};
 
-double number_of(const std::vector<std::string>& cells, std::size_t column, const std::string& where,
+double number_of(const std::string& cell, DecimalMark mark, const std::string& where,
                  const std::string& who) {
-  const std::string cell = column < cells.size() ? cells[column] : "";
-  char* end = nullptr;
-  const double value = std::strtod(cell.c_str(), &end);
-  if (cell.empty() || *end != '\0' || !std::isfinite(value))
-    throw_user_error({who, where, fmt::format("'{}'", cell), "be a finite number", ""});
-  return value;
+  const std::optional<double> value = parse_decimal(cell, mark);
+  if (!value) throw_user_error({who, where, fmt::format("'{}'", cell), "be a finite number", ""});
+  return *value;
 }
 
-std::vector<GradingPoint> read_rows(std::ifstream& file, const std::string& path, const std::string& who,
-                                    std::string& amount_name) {
-  std::vector<GradingPoint> rows;
-  bool has_header = false;
-  Names names;
-  std::size_t number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
-    const auto cells = cells_of(line);
-    if (!has_header) {
-      names = columns_of(cells, path, who);
-      has_header = true;
+double diameter_of(const std::string& cell, const SieveColumns& columns, DecimalMark mark,
+                   const std::string& where, const std::string& who) {
+  if (columns.size_kind == SizeKind::sieve_number) {
+    const std::optional<double> opening = astm_sieve_opening(cell);
+    if (!opening)
+      throw_user_error({who, where, fmt::format("sieve '{}'", cell), "be one of ASTM E11",
+                        "give its opening in a column sieve_mm"});
+    return *opening;
+  }
+  const double value = number_of(cell, mark, where, who);
+  return columns.size_kind == SizeKind::phi ? 1e-3 * std::exp2(-value) : value * columns.to_diameter;
+}
+
+Table read_table(const std::string& path, const std::string& who) {
+  CsvFile file = read_csv(path, who);
+  Table table;
+  table.columns = sieve_columns(file.names, path, who);
+  if (table.columns.size_kind == SizeKind::sieve_number) file = read_csv(path, who, true);
+  const auto cell = [&](const CsvFile::Row& row, std::size_t column) { return row.cells[column]; };
+  const bool pan_by_zero = table.columns.size_kind == SizeKind::diameter;
+  const auto pan = [&](const std::string& size) {
+    return is_pan(size) && (pan_by_zero || std::isdigit(static_cast<unsigned char>(size[0])) == 0);
+  };
+  std::vector<std::string> numbers;
+  for (const CsvFile::Row& row : file.rows) {
+    numbers.push_back(cell(row, table.columns.amount));
+    if (table.columns.size_kind != SizeKind::sieve_number && !pan(cell(row, table.columns.size)))
+      numbers.push_back(cell(row, table.columns.size));
+  }
+  const DecimalMark mark = decimal_mark_of(numbers, file.separator, fmt::format("{}: {}", who, path));
+  for (const CsvFile::Row& row : file.rows) {
+    const std::string where = fmt::format("{}, line {}", path, row.line);
+    const std::string& size = cell(row, table.columns.size);
+    if (pan(size)) {
+      if (table.pan) throw_user_error({who, where, fmt::format("'{}'", size), "be there once", "as the pan"});
+      const std::string& amount = cell(row, table.columns.amount);
+      table.pan = amount.empty() ? 0 : number_of(amount, mark, where, who);
       continue;
     }
-    const std::string where = fmt::format("{}, line {}", path, number);
-    rows.push_back({number_of(cells, names.size, where, who) * names.to_diameter_in_metres,
-                    number_of(cells, names.amount, where, who)});
+    table.sizes.push_back({diameter_of(size, table.columns, mark, where, who),
+                           number_of(cell(row, table.columns.amount), mark, where, who), where});
   }
-  if (!has_header) throw_user_error({who, path, "nothing", "hold a grading", ""});
-  if (rows.size() < 2)
-    throw_user_error({who, path, fmt::format("{} sizes", rows.size()), "have at least two",
+  if (table.sizes.size() < 2)
+    throw_user_error({who, path, fmt::format("{} sizes", table.sizes.size()), "have at least two",
                       "one size alone has no distribution"});
-  amount_name = names.amount_name;
-  return rows;
+  if (table.sizes.front().diameter > table.sizes.back().diameter)
+    std::reverse(table.sizes.begin(), table.sizes.end());
+  return table;
+}
+
+/// What stands for all of the mass where the name of the column does not tell.
+double whole_of(const Table& table, double largest, const std::string& who) {
+  if (table.columns.whole) return *table.columns.whole;
+  for (const double whole : {100.0, 1.0})
+    if (std::abs(largest / whole - 1) <= 5e-3) return whole;
+  throw_user_error({who, "amount at the end of the curve", fmt::format("{:g}", largest), "be 100 or 1",
+                    "add the size that all grains pass, or name the column percent_finer"});
+}
+
+Grading from_passing(const Table& table, const micromechanics::GapRule& rule, const std::string& who) {
+  const bool coarser = table.columns.amount_kind == AmountKind::coarser;
+  const double whole = whole_of(
+      table, coarser ? table.pan.value_or(table.sizes.front().amount) : table.sizes.back().amount, who);
+  if (table.pan && std::abs(*table.pan - (coarser ? whole : 0)) > 5e-3 * whole)
+    throw_user_error({who, "amount of the pan", fmt::format("{:g}", *table.pan),
+                      fmt::format("be {:g}", coarser ? whole : 0), "the curve ends there"});
+  std::vector<GradingPoint> points;
+  for (const Size& size : table.sizes)
+    points.push_back({size.diameter, (coarser ? whole - size.amount : size.amount) / whole});
+  return Grading::from_curve(points, rule);
+}
+
+/// Masses on sieves and in the pan, summed up from below.
+Grading from_retained(const Table& table, const micromechanics::GapRule& rule, const std::string& who) {
+  double total = table.pan.value_or(0);
+  for (const Size& size : table.sizes) {
+    if (size.amount < 0)
+      throw_user_error({who, size.where, fmt::format("{:g}", size.amount), "not be negative", ""});
+    total += size.amount;
+  }
+  const bool is_mass = !table.columns.whole && !table.columns.whole_by_largest;
+  const double whole = is_mass ? total : whole_of(table, total, who);
+  if (is_mass && !table.pan)
+    throw_user_error({who, "what passes the finest sieve", "not given", "be there",
+                      "add a row `pan`, with 0 if nothing did"});
+  if (std::abs(total / whole - 1) > 5e-3)
+    throw_user_error(
+        {who, "sum of what is retained", fmt::format("{:g}", total), fmt::format("be {:g}", whole),
+         table.pan
+             ? "if these are sums from the coarsest sieve on, name the column cumulative_percent_retained"
+             : "add a row `pan`; or, if these are sums, name the column cumulative_percent_retained"});
+  if (table.sizes.back().amount > 0)
+    throw_user_error({who, "amount on the coarsest sieve", fmt::format("{:g}", table.sizes.back().amount),
+                      "be 0", "add the sieve that all grains pass: how coarse those are is not known"});
+  std::vector<GradingPoint> points;
+  double finer = table.pan.value_or(0);
+  for (const Size& size : table.sizes) {
+    points.push_back({size.diameter, finer / total});
+    finer += size.amount;
+  }
+  points.back().finer = 1;
+  return Grading::from_curve(points, rule);
+}
+
+Grading from_class_table(const Table& table, const micromechanics::GapRule& rule, const std::string& who) {
+  const bool is_mass = !table.columns.whole;
+  if (is_mass && table.sizes.size() > 3 &&
+      std::all_of(table.sizes.begin(), table.sizes.end(),
+                  [](const Size& size) { return is_sieve_opening(size.diameter); }))
+    throw_user_error(
+        {who, "masses", "at openings of sieves only", "be of grains of these sizes",
+         "if they are what sieves retained, name the columns sieve_mm and retained_mass_g and add a row "
+         "`pan`; else give mass_fraction"});
+  double total = 0;
+  std::vector<GradingClass> classes;
+  for (const Size& size : table.sizes) {
+    classes.push_back({size.diameter, size.amount});
+    total += size.amount;
+  }
+  Grading grading = Grading::from_classes(classes, rule);
+  if (!is_mass && std::abs(total / *table.columns.whole - 1) > 1e-3)
+    throw_user_error({"grading", "sum of mass_fraction", fmt::format("{:g}", total),
+                      fmt::format("be {:g} (within 0.1 %)", *table.columns.whole),
+                      "give shares of the whole, or name the column mass_kg"});
+  return grading;
 }
 
 }  // namespace
 
 micromechanics::Grading read_grading(const std::string& path, const std::string& who,
                                      const micromechanics::GapRule& rule) {
-  std::ifstream file(path);
-  if (!file) throw_user_error({who, "file", path, "be readable", ""});
-  std::string amount;
-  std::vector<GradingPoint> rows = read_rows(file, path, who, amount);
-  if (rows.front().diameter > rows.back().diameter) std::reverse(rows.begin(), rows.end());
+  const Table table = read_table(path, who);
   try {
-    if (amount == "percent_finer") {
-      for (GradingPoint& row : rows) row.finer /= 100;
-      return Grading::from_curve(rows, rule);
+    switch (table.columns.amount_kind) {
+      case AmountKind::finer:
+      case AmountKind::coarser:
+        return from_passing(table, rule, "grading");
+      case AmountKind::retained:
+        return from_retained(table, rule, "grading");
+      case AmountKind::of_class:
+        break;
     }
-    double total = 0;
-    std::vector<GradingClass> classes;
-    for (const GradingPoint& row : rows) {
-      classes.push_back({row.diameter, row.finer});
-      total += row.finer;
-    }
-    const Grading grading = Grading::from_classes(classes, rule);
-    if (amount == "mass_fraction" && std::abs(total - 1) > 1e-3)
-      throw_user_error({"grading", "sum of mass_fraction", fmt::format("{:g}", total), "be 1 (within 0.001)",
-                        "give shares of the whole, or name the column mass_kg"});
-    return grading;
+    return table.pan ? from_retained(table, rule, "grading") : from_class_table(table, rule, "grading");
   } catch (const UserError& problem) {
     throw UserError(fmt::format("{}: {}: {}", who, path, problem.what()));
   }

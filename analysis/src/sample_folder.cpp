@@ -88,6 +88,9 @@ SampleFolder read_sample_folder(const std::string& folder, const std::string& wh
   sample.table_5_1 = table.text("table_5_1");
   if (sample.table_4_1.empty() && sample.table_5_1.empty())
     table.complain("table_4_1", "not there", "name the sample, or table_5_1 must");
+  // A sample of somebody's own grading is in neither table.
+  for (std::string* name : {&sample.table_4_1, &sample.table_5_1})
+    if (*name == "none") name->clear();
   sample.state = state_of(table);
   sample.split = table.number("split_m");
   sample.friction = table.number("friction").value_or(sample.friction);

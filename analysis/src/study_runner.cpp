@@ -10,6 +10,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/figure_script.h"
+#include "suffuse/analysis/project_files.h"
 #include "suffuse/analysis/script_variables.h"
 #include "suffuse/analysis/timed_process.h"
 #include "suffuse/common/count_text.h"

@@ -78,11 +78,16 @@ const char* script_name(int argc, char** argv) {
   return nullptr;
 }
 
-/// Lets a script find files beside it: ${script_folder} is the folder of -in FILE (LIGGGHTS takes relative
-/// names from the folder of the run). A -var of the same name on the command line is read first and wins.
-void add_script_folder(std::vector<char*>& arguments, const char* script) {
-  static std::string folder;
-  static char option[] = "-var", name[] = "script_folder";
+/// Lets a script find files beside it, and the programs beside this one: ${script_folder} is the folder of
+/// -in FILE (LIGGGHTS takes relative names from the folder of the run), ${suffuse_folder} that of this
+/// program. A -var of the same name on the command line is read first and wins.
+void add_folders(std::vector<char*>& arguments, const char* script) {
+  static std::string folder, programs;
+  static char option[] = "-var", name[] = "script_folder", programs_name[] = "suffuse_folder";
+  std::error_code ignored;  // without /proc PATH's program may do
+  programs = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path().string();
+  if (programs.empty()) programs = ".";
+  arguments.insert(arguments.end(), {option, programs_name, programs.data()});
   if (script == nullptr) return;
   folder = std::filesystem::path(script).parent_path().string();
   if (folder.empty()) folder = ".";
@@ -145,7 +150,7 @@ int run_script(int argc, char** argv, int rank) {
     require_a_readable_script(argc, argv);
     std::vector<char*> arguments = with_a_real_screen(argc, argv);
     const suffuse::GrainLoop loop = take_grain_loop(arguments);
-    add_script_folder(arguments, script_name(argc, argv));
+    add_folders(arguments, script_name(argc, argv));
     lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
     suffuse::register_styles(lmp, loop);
     suffuse::coupling::LbmCommand::add_to(lmp);

@@ -36,7 +36,7 @@ const std::vector<ConstrictionLimitName>& constriction_limit_names() {
       {"stable_2015", &L::stable_2015},     {"cyclic_2017", &L::cyclic_2017},
       {"coordination", &L::coordination},   {"stress_reduction", &L::stress_reduction},
       {"fines_split", &L::fines_split},     {"dense_split", &L::dense_split},
-      {"dense_from", &L::dense_from}};
+      {"dense_from", &L::dense_from},       {"split_margin", &L::split_margin}};
   return names;
 }
 
@@ -50,6 +50,19 @@ GradingSplit thesis_split(const Grading& grading, double relative_density, const
   if (relative_density >= limits.dense_from)
     return {limits.dense_split, fmt::format("gap at {:g} or more fines, dense", limits.fines_split)};
   return {limits.fines_split, fmt::format("gap at {:g} or more fines, loose or medium", limits.fines_split)};
+}
+
+std::vector<GradingSplit> allowed_splits(const Grading& grading, const ConstrictionLimits& limits,
+                                         const StabilityLimits& stability) {
+  if (!grading.gap()) return {thesis_split(grading, 0, limits, stability)};
+  const double fines = grading.gap()->finer;
+  std::vector<GradingSplit> splits{{fines, "at the gap"}};
+  if (fines < limits.fines_split - limits.split_margin) return splits;
+  for (const auto& [finer, rule] :
+       {std::pair{limits.fines_split, "as the thesis does in loose and medium states"},
+        std::pair{limits.dense_split, "as it does in dense ones"}})
+    if (finer < fines - 1e-9) splits.push_back({finer, rule});
+  return splits;
 }
 
 double diameter_by_fraction(std::span<const GradingClass> classes, FractionBy by, double finer) {
@@ -73,6 +86,9 @@ ConstrictionAnalysis analyse_constrictions(const Grading& grading, const Constri
   check_share("relative density", options.relative_density, false);
   if (options.split) check_share("split", *options.split, true);
   if (options.porosity) check_share("porosity", *options.porosity, true);
+  if (grading.unknown_below() > 0)
+    throw_user_error({"constriction", "grading", curve_end(grading), "be known down to its smallest grain",
+                      "add the size than which no grain is finer, with 0"});
   ConstrictionAnalysis result;
   result.split = options.split ? GradingSplit{*options.split, "given"}
                                : thesis_split(grading, options.relative_density, limits, stability);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "suffuse/common/error.h"
@@ -12,6 +13,7 @@ namespace suffuse::micromechanics {
 
 namespace {
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-9;  // sums of shares such as 20 × 0.05 are exact to far less
 constexpr std::size_t kMostSizes =
     200;  // more sizes of grains than this are gathered in so many equal shares
@@ -71,9 +73,12 @@ std::vector<GradingPoint> spread(const std::vector<GradingClass>& classes, const
   return curve;
 }
 
+/// A flat stretch at an end of the curve that is not known is no gap: nobody knows how wide it is.
 std::optional<GradingGap> widest_gap(const std::vector<GradingPoint>& curve, const GapRule& rule) {
   std::optional<GradingGap> widest;
+  const double unknown_below = curve.front().finer;
   for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+    if (unknown_below > 0 && curve[i].finer - unknown_below <= rule.curve_rise) continue;
     std::size_t end = i + 1;
     if (curve[end].finer - curve[i].finer > rule.curve_rise) continue;
     while (end + 1 < curve.size() && curve[end + 1].finer - curve[i].finer <= rule.curve_rise) ++end;
@@ -140,13 +145,16 @@ Grading Grading::from_curve(std::span<const GradingPoint> points, const GapRule&
     throw_user_error({"grading", "share finer than the largest size", fmt::format("{:g} %", 100 * total),
                       "be 100 % (within 0.5)", "add the size that all grains pass"});
   Grading grading;
-  if (points.front().finer > 0) grading.curve_.push_back({points.front().diameter, 0});
   for (const GradingPoint& point : points) grading.curve_.push_back({point.diameter, point.finer / total});
   // No grains above the first point that all pass, nor below the last that none passes.
   while (grading.curve_.size() > 1 && grading.curve_[grading.curve_.size() - 2].finer >= 1)
     grading.curve_.pop_back();
   while (grading.curve_.size() > 1 && grading.curve_[1].finer <= 0)
     grading.curve_.erase(grading.curve_.begin());
+  if (grading.curve_.front().finer >= 1)
+    throw_user_error({"grading", "share finer than the smallest size", "100 %", "be below 100 %",
+                      "give sizes that some grains are finer than"});
+  grading.unknown_below_ = grading.curve_.front().finer;
   grading.gap_ = widest_gap(grading.curve_, rule);
   return grading;
 }
@@ -173,6 +181,7 @@ Grading Grading::from_grains(std::span<const double> diameters, const GapRule& r
 double Grading::diameter_at(double finer) const {
   const auto point = std::partition_point(curve_.begin(), curve_.end(),
                                           [&](const GradingPoint& p) { return p.finer < finer - kRounding; });
+  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kNaN;
   if (point == curve_.begin()) return curve_.front().diameter;
   if (point == curve_.end()) return curve_.back().diameter;
   return log_between(std::min(finer, point->finer), *(point - 1), *point);
@@ -181,24 +190,29 @@ double Grading::diameter_at(double finer) const {
 double Grading::diameter_above(double finer) const {
   const auto point = std::partition_point(
       curve_.begin(), curve_.end(), [&](const GradingPoint& p) { return p.finer <= finer + kRounding; });
+  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kNaN;
   if (point == curve_.begin()) return curve_.front().diameter;
   if (point == curve_.end()) return curve_.back().diameter;
   return log_between(std::max(finer, (point - 1)->finer), *(point - 1), *point);
 }
 
 double Grading::finer_at(double diameter) const {
+  if (std::isnan(diameter)) return kNaN;
   if (diameter >= curve_.back().diameter) return 1;
   const auto above = std::upper_bound(curve_.begin(), curve_.end(), diameter,
                                       [](double d, const GradingPoint& p) { return d < p.diameter; });
-  if (above == curve_.begin()) return 0;
+  if (above == curve_.begin()) return unknown_below_ > 0 ? kNaN : 0;
   const GradingPoint &low = *(above - 1), &high = *above;
   return between(std::log(diameter), std::log(low.diameter), std::log(high.diameter), low.finer, high.finer);
 }
 
 double Grading::finer_below(double diameter) const {
+  if (std::isnan(diameter)) return kNaN;
   if (diameter > curve_.back().diameter) return 1;
   const auto above = std::lower_bound(curve_.begin(), curve_.end(), diameter,
                                       [](const GradingPoint& p, double d) { return p.diameter < d; });
+  if (above == curve_.begin() && unknown_below_ > 0)
+    return diameter == curve_.front().diameter ? unknown_below_ : kNaN;
   if (above == curve_.begin()) return 0;
   const GradingPoint &low = *(above - 1), &high = *above;
   return between(std::log(diameter), std::log(low.diameter), std::log(high.diameter), low.finer, high.finer);
@@ -206,6 +220,11 @@ double Grading::finer_below(double diameter) const {
 
 std::vector<GradingClass> Grading::classes(std::size_t most) const {
   if (!classes_.empty() && classes_.size() <= most) return classes_;
+  if (unknown_below_ > 0)
+    throw_user_error({"grading", "percent_finer of the smallest size",
+                      fmt::format("{:g} %", 100 * unknown_below_),
+                      fmt::format("be 0 for this ({})", curve_end(*this)),
+                      "add the size than which no grain is finer, with 0"});
   std::vector<GradingClass> result;
   const double share = 1.0 / static_cast<double>(most);
   for (std::size_t i = 0; i < most; ++i) {
@@ -227,12 +246,17 @@ double effective_diameter(std::span<const GradingClass> classes) {
   return mass / surface;
 }
 
+std::string curve_end(const Grading& grading) {
+  return fmt::format("the curve ends at {:.4g} mm with {:.3g} % finer", 1e3 * grading.smallest(),
+                     100 * grading.unknown_below());
+}
+
 GradingIndices grading_indices(const Grading& grading) {
   const auto d = [&](double finer) { return grading.diameter_at(finer); };
   GradingIndices indices{d(0.05), d(0.10), d(0.15), d(0.20), d(0.30), d(0.50), d(0.60), d(0.85), d(0.90)};
   indices.uniformity = indices.d60 / indices.d10;
   indices.curvature = indices.d30 * indices.d30 / (indices.d10 * indices.d60);
-  indices.sauter = effective_diameter(grading.classes(200));
+  indices.sauter = grading.unknown_below() > 0 ? kNaN : effective_diameter(grading.classes(200));
   return indices;
 }
 
@@ -242,7 +266,7 @@ std::vector<ShapePoint> shape_curve(const Grading& grading, double finer_limit) 
     corners.push_back(point.diameter);
     if (point.diameter / 4 >= grading.smallest()) corners.push_back(point.diameter / 4);
   }
-  corners.push_back(grading.diameter_at(finer_limit));
+  if (finer_limit >= grading.unknown_below()) corners.push_back(grading.diameter_at(finer_limit));
   std::sort(corners.begin(), corners.end());
   std::vector<ShapePoint> result;
   const auto add = [&](double diameter, double finer, double finer_of_four) {

@@ -40,6 +40,22 @@ std::string gap_or_continuous(const Grading& grading) {
              : std::string("continuously graded");
 }
 
+/// Not applicable where the value needs a size below the end of the curve.
+CriterionResult if_known(CriterionResult result, const Grading& grading) {
+  return std::isnan(result.value) ? outside(std::move(result), curve_end(grading)) : result;
+}
+
+/// A criterion that searched the curve, of which an end may not be known.
+CriterionResult if_searched(CriterionResult result, const Grading& grading, const StabilityLimits& limits) {
+  if (grading.unknown_below() == 0) return result;
+  if (!std::isfinite(result.value) && result.verdict != Verdict::unstable)
+    return outside(std::move(result), curve_end(grading));
+  if (result.verdict == Verdict::stable && grading.unknown_below() > limits.unknown_fines)
+    return outside(result, fmt::format("{}; what is known gives {:.4g}", curve_end(grading), result.value));
+  result.note += fmt::format("; searched as far as {}", curve_end(grading));
+  return result;
+}
+
 /// Burenkova's conditional factors of uniformity h' = d90/d60 and h'' = d90/d15.
 struct UniformityFactors {
   double coarse = 0, whole = 0;
@@ -76,6 +92,7 @@ const std::vector<LimitName>& limit_names() {
                                                {"lubochkov", &L::lubochkov},
                                                {"kezdi", &L::kezdi},
                                                {"sherard", &L::sherard},
+                                               {"kezdi_from_finer", &L::kezdi_from_finer},
                                                {"kenney_lau", &L::kenney_lau},
                                                {"kenney_lau_wide_finer", &L::kenney_lau_wide_finer},
                                                {"kenney_lau_narrow_finer", &L::kenney_lau_narrow_finer},
@@ -91,12 +108,16 @@ const std::vector<LimitName>& limit_names() {
                                                {"li_fannin_finer", &L::li_fannin_finer},
                                                {"wan_fell_probability", &L::wan_fell_probability},
                                                {"wan_fell_coarse", &L::wan_fell_coarse},
-                                               {"wan_fell_fine", &L::wan_fell_fine}};
+                                               {"wan_fell_fine", &L::wan_fell_fine},
+                                               {"unknown_fines", &L::unknown_fines}};
   return names;
 }
 
 ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& limits) {
-  const bool narrow = grading_indices(grading).uniformity <= limits.kenney_lau_narrow_cu;
+  // Where d10 lies below the end of the curve, C_u is more than d60 over the size of that end.
+  const double uniformity = grading_indices(grading).uniformity;
+  const double at_least = grading.diameter_at(0.60) / grading.smallest();
+  const bool narrow = (std::isnan(uniformity) ? at_least : uniformity) <= limits.kenney_lau_narrow_cu;
   ShapeMinimum least{kInfinity, 0, 0,
                      narrow || grading.gap() ? limits.kenney_lau_narrow_finer : limits.kenney_lau_wide_finer};
   for (const ShapePoint& point : shape_curve(grading, least.finer_limit)) {
@@ -107,18 +128,18 @@ ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& 
   return least;
 }
 
-SplitMaximum maximum_split_ratio(const Grading& grading) {
+SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer) {
   // Both sizes are straight in log d between the corners of the curve, so the largest ratio is at a split
   // where one of the two meets a corner.
-  std::vector<double> splits{0};
+  std::vector<double> splits{from_finer};
   for (const GradingPoint& corner : grading.curve())
     for (const double split : {(corner.finer - 0.15) / 0.85, corner.finer / 0.85})
-      if (split > 0 && split < 1) splits.push_back(split);
+      if (split > from_finer && split < 1) splits.push_back(split);
   SplitMaximum greatest;
   for (const double split : splits) {
     const double ratio =
         grading.diameter_above(split + 0.15 * (1 - split)) / grading.diameter_at(0.85 * split);
-    if (ratio > greatest.ratio) greatest = {ratio, split};
+    if (ratio > greatest.ratio) greatest = {ratio, split};  // not where one of the sizes is unknown
   }
   return greatest;
 }
@@ -132,6 +153,7 @@ CriterionResult usace(const Grading& grading, const StabilityLimits& limits) {
                          "usace1953",
                          ""};
   const double silt = grading.finer_at(0.075e-3), up_to_sand = grading.finer_at(limits.usace_gravel_diameter);
+  if (std::isnan(silt) || std::isnan(up_to_sand)) return outside(result, curve_end(grading));
   if (up_to_sand >= 1 || up_to_sand <= silt) return outside(result, "for mixtures of gravel and sand only");
   result.value = (up_to_sand - silt) / (1 - silt);
   result.verdict = stable_if(result.value > limits.usace_sand);
@@ -150,7 +172,7 @@ CriterionResult istomina(const Grading& grading, const StabilityLimits& limits) 
       "as reported by kovacs1981"};
   if (result.value <= limits.istomina_stable) result.verdict = Verdict::stable;
   if (result.value >= limits.istomina_unstable) result.verdict = Verdict::unstable;
-  return result;
+  return if_known(result, grading);
 }
 
 CriterionResult lubochkov(const Grading& grading, const StabilityLimits& limits) {
@@ -182,16 +204,17 @@ CriterionResult lubochkov(const Grading& grading, const StabilityLimits& limits)
   }
   result.verdict = stable_if(result.value < limits.lubochkov);
   result.note = fmt::format("at {}; the thesis gives neither the side of the verdict nor chi", size(where));
-  return result;
+  return if_searched(result, grading, limits);
 }
 
 namespace {
 
-CriterionResult split_criterion(const Grading& grading, const char* name, const char* source, double limit) {
-  const SplitMaximum split = maximum_split_ratio(grading);
+CriterionResult split_criterion(const Grading& grading, const char* name, const char* source, double limit,
+                                double from_finer) {
+  const SplitMaximum split = maximum_split_ratio(grading, from_finer);
   return {name,
           "(D15c/d85f)max",
-          split.ratio,
+          split.ratio > 0 ? split.ratio : kNaN,
           fmt::format("stable <= {:g}", limit),
           stable_if(split.ratio <= limit),
           source,
@@ -201,13 +224,16 @@ CriterionResult split_criterion(const Grading& grading, const char* name, const 
 }  // namespace
 
 CriterionResult kezdi(const Grading& grading, const StabilityLimits& limits) {
-  CriterionResult result = split_criterion(grading, "Kezdi", "kezdi1979", limits.kezdi);
+  CriterionResult result =
+      split_criterion(grading, "Kezdi", "kezdi1979", limits.kezdi, limits.kezdi_from_finer);
   result.note += fmt::format("; at {:g} itself chapter 2 says stable, chapter 4 unstable", limits.kezdi);
-  return result;
+  return if_searched(result, grading, limits);
 }
 
 CriterionResult sherard(const Grading& grading, const StabilityLimits& limits) {
-  return split_criterion(grading, "Sherard", "sherard1979", limits.sherard);
+  return if_searched(
+      split_criterion(grading, "Sherard", "sherard1979", limits.sherard, limits.kezdi_from_finer), grading,
+      limits);
 }
 
 CriterionResult kenney_lau(const Grading& grading, const StabilityLimits& limits) {
@@ -222,7 +248,7 @@ CriterionResult kenney_lau(const Grading& grading, const StabilityLimits& limits
                                      percent(least.finer_limit))};
   if (grading.gap())
     result.note += "; chapter 2 keeps it to gradings without a gap, Table 4.1 uses it with one";
-  return result;
+  return if_searched(result, grading, limits);
 }
 
 CriterionResult chapuis_kezdi(const Grading& grading, const StabilityLimits& limits) {
@@ -235,10 +261,10 @@ CriterionResult chapuis_kezdi(const Grading& grading, const StabilityLimits& lim
       where = point.diameter;
     }
   if (where == 0) {
-    least = 1;
+    least = grading.unknown_below() > 0 ? kInfinity : 1;
     where = grading.smallest();
   }
-  return {
+  const CriterionResult result{
       "Chapuis, Kezdi's slope",
       "least slope per log cycle",
       std::max(0.0, least) / kLogOfFour,
@@ -246,21 +272,23 @@ CriterionResult chapuis_kezdi(const Grading& grading, const StabilityLimits& lim
       stable_if(least >= limits.chapuis_finer - 1e-9),
       "chapuis1992",
       fmt::format("from {} to four times it, searched up to a quarter of the largest grain", size(where))};
+  return if_searched(result, grading, limits);
 }
 
 CriterionResult chapuis_kenney_lau(const Grading& grading, const StabilityLimits& limits) {
   const ShapeMinimum least = minimum_shape_ratio(grading, limits);
   const double slope = least.ratio * least.finer / kLogOfFour,
                needed = limits.kenney_lau * least.finer / kLogOfFour;
-  return {
+  const CriterionResult result{
       "Chapuis, Kenney and Lau's slope",
       "slope per log cycle",
-      slope,
+      std::isfinite(least.ratio) ? slope : kNaN,
       fmt::format("stable > {:.3f}", needed),
       stable_if(least.ratio > limits.kenney_lau),
       "chapuis1992",
       fmt::format("at F = {}, where it is least against F/log 4; Kenney and Lau's criterion in other words",
                   percent(least.finer))};
+  return if_searched(result, grading, limits);
 }
 
 CriterionResult burenkova(const Grading& grading, const StabilityLimits& limits) {
@@ -281,14 +309,21 @@ CriterionResult burenkova(const Grading& grading, const StabilityLimits& limits)
       "h'' = d90/d15 = {:.3f}; misprinted in the thesis: eqs 2.2 and 2.3 call both h', eq 2.4 lacks + 1 "
       "in its lower bound ({:.3f}: {})",
       h.whole, printed, to_string(as_printed));
-  return result;
+  if (std::isnan(h.whole)) {
+    result.value = kNaN;
+    result.limit = "by d90/d15";
+  }
+  return if_known(result, grading);
 }
 
 CriterionResult honjo(const Grading& grading, const StabilityLimits& limits) {
   CriterionResult result{
       "Honjo",         "gap ratio", 0, fmt::format("stable <= {:g}", limits.honjo_gap_ratio),
       Verdict::stable, "honjo1996", ""};
-  if (!grading.gap()) return outside(result, "continuously graded");
+  if (!grading.gap())
+    return outside(result, grading.unknown_below() > limits.unknown_fines
+                               ? "no gap in what is known: " + curve_end(grading)
+                               : std::string("continuously graded"));
   result.value = grading.gap()->ratio();
   result.verdict = stable_if(result.value <= limits.honjo_gap_ratio);
   result.note = gap_or_continuous(grading);
@@ -311,7 +346,7 @@ CriterionResult liu(const Grading& grading, const StabilityLimits& limits) {
   constexpr double rounding = 1e-9;
   if (fines < limits.liu_unstable - rounding) result.verdict = Verdict::unstable;
   if (fines > limits.liu_stable + rounding) result.verdict = Verdict::stable;
-  return result;
+  return if_known(result, grading);
 }
 
 CriterionResult li_fannin(const Grading& grading, const StabilityLimits& limits) {
@@ -326,16 +361,18 @@ CriterionResult li_fannin(const Grading& grading, const StabilityLimits& limits)
     }
     least_other = std::min(least_other, point.interval / std::min(limits.li_fannin_finer, line));
   }
-  return {"Li and Fannin",
-          fmt::format("least H/max({:g}, F)", limits.li_fannin_finer),
-          least,
-          "stable > 1",
-          stable_if(least > 1),
-          "lifannin2008",
-          fmt::format("at F = {}; the stricter of Kezdi's and Kenney and Lau's line, as Table 2.1 has it; "
-                      "with the less strict, "
-                      "H/min({:g}, F): {}",
-                      percent(where), limits.li_fannin_finer, to_string(stable_if(least_other > 1)))};
+  const CriterionResult result{
+      "Li and Fannin",
+      fmt::format("least H/max({:g}, F)", limits.li_fannin_finer),
+      least,
+      "stable > 1",
+      stable_if(least > 1),
+      "lifannin2008",
+      fmt::format("at F = {}; the stricter of Kezdi's and Kenney and Lau's line, as Table 2.1 has it; "
+                  "with the less strict, "
+                  "H/min({:g}, F): {}",
+                  percent(where), limits.li_fannin_finer, to_string(stable_if(least_other > 1)))};
+  return if_searched(result, grading, limits);
 }
 
 CriterionResult wan_fell_probability(const Grading& grading, const StabilityLimits& limits) {
@@ -344,15 +381,17 @@ CriterionResult wan_fell_probability(const Grading& grading, const StabilityLimi
   const double silty = probability(2.378 * std::log10(h.whole) - 3.648 * h.coarse + 3.701);
   const double clean = probability(3.875 * std::log10(h.whole) - 3.591 * h.coarse + 2.436);
   const bool is_silty = grading.finer_at(0.075e-3) > 0.10;
-  const double value = is_silty ? silty : clean;
-  return {"Wan and Fell, probability",
-          "probability of instability",
-          value,
-          fmt::format("stable < {:g}", limits.wan_fell_probability),
-          stable_if(value < limits.wan_fell_probability),
-          "wanfell2008",
-          fmt::format("logistic in h', h'' for {}; without formula in the thesis",
-                      is_silty ? "more than 10 % below 0.075 mm" : "up to 10 % below 0.075 mm")};
+  const double value = std::isnan(grading.finer_at(0.075e-3)) ? kNaN : is_silty ? silty : clean;
+  const CriterionResult result{
+      "Wan and Fell, probability",
+      "probability of instability",
+      value,
+      fmt::format("stable < {:g}", limits.wan_fell_probability),
+      stable_if(value < limits.wan_fell_probability),
+      "wanfell2008",
+      fmt::format("logistic in h', h'' for {}; without formula in the thesis",
+                  is_silty ? "more than 10 % below 0.075 mm" : "up to 10 % below 0.075 mm")};
+  return if_known(result, grading);
 }
 
 CriterionResult wan_fell_slopes(const Grading& grading, const StabilityLimits& limits) {
@@ -369,7 +408,8 @@ CriterionResult wan_fell_slopes(const Grading& grading, const StabilityLimits& l
           "fine slope 15/log(d20/d5) = {:.3g}; for broadly graded soils; without formula in the thesis",
           fine)};
   if (grading.gap()) return outside(result, "for broadly graded soils, not with a gap");
-  return result;
+  if (std::isnan(fine)) result.value = kNaN;
+  return if_known(result, grading);
 }
 
 std::vector<CriterionResult> grading_criteria(const Grading& grading, const StabilityLimits& limits) {

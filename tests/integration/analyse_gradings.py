@@ -41,6 +41,22 @@ def good_gradings(run, gradings):
     expect(strict["Kenney and Lau"]["verdict"] == "unstable", "a limit can be set")
 
 
+def ended_curve(run):
+    # 33 % finer than the last sieve: sizes and formulas that need them have no value, and say why.
+    name = run.write("ended.csv", "sieve_mm;percent_passing\n0,074;33\n0,25;42\n0,84;59\n2;77\n4,76;100\n")
+    found = criteria(run, name)
+    for criterion in ("Istomina", "Kenney and Lau", "Burenkova"):
+        expect(found[criterion]["value"] == "" and "the curve ends at 0.074 mm with 33 % finer" in found[criterion]["note"], f"{criterion} needs what is not known")
+    screen = run("grading", name).stdout
+    expect("d10 -, d15 -, d30 -, d50 0.4" in screen and "nan" not in screen, f"no sizes below the end: {screen}")
+    result = run("hydraulic", name, "--porosity", 0.3, "--output", "hydraulic.csv")
+    expect(result.returncode == 0 and "nan" not in result.stdout, result.stdout)
+    of_d10 = [row for row in rows(run.folder / "hydraulic.csv") if "Hazen" in row["quantity"]]
+    expect(of_d10[0]["value"] == "" and "the curve ends" in of_d10[0]["note"], "Hazen's formula needs d10")
+    report = run("verdict", name)
+    expect(report.returncode == 0 and "nan" not in report.stdout and "the curve ends" in report.stdout, "a report on what is known")
+
+
 def rows_without_comments(path):
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
     return list(csv.DictReader(lines))
@@ -73,6 +89,44 @@ def good_packings(run):
     expect(both.returncode == 0 and "packing_m" in rows(run.folder / "both.csv")[0], f"grading and packing side by side: {both.stderr}")
 
 
+WIDE = "sieve_mm,percent_passing\n0.125,0\n0.25,12\n0.5,24\n2,25\n8,60\n31.5,100\n"
+
+
+def samples(run, gradings):
+    result = run("sample", "7b", "--grains", 2000, "--output", "b20")
+    expect(result.returncode == 0 and "500 coarse grains take 32188 grains" in result.stdout, result.stdout + result.stderr)
+    classes = rows_without_comments(run.folder / "b20.csv")
+    masses = [float(row["grains"]) * float(row["diameter_m"]) ** 3 for row in classes]
+    expect(all(close(mass / sum(masses), float(row["mass_fraction"]), 1e-4) for mass, row in zip(masses, classes)), "grains have the masses of their classes")
+    expect(close(sum(float(row["grains"]) for row in classes), 2000, 1e-4), "2,000 grains")
+    given = rows_without_comments(gradings / "B20.csv")
+    expect([row["mass_fraction"] for row in classes] == [f"{float(row['mass_fraction']):.12g}" for row in given], "the classes of B20 as they are")
+    variables = dict(line.split(" index ") for line in (run.folder / "b20.inc").read_text().replace("variable ", "").splitlines()[1:])
+    expect(variables["sample_grains"] == "2000" and "B(20%)" in variables["row_table_5_1"] and 1.6e-4 < float(variables["split"]) < 4.5e-4, f"{variables}")
+    templates = (run.folder / "b20_templates.inc").read_text()
+    expect(templates.count("particletemplate/sphere") == 20 and "particledistribution/discrete ${distribution_seed} 20" in templates, templates)
+    grains = [line.split() for line in (run.folder / "b20.data").read_text().split("Atoms\n\n")[1].splitlines()]
+    expect(len(grains) == 2000 and len({tuple(grain[4:]) for grain in grains}) == 2000, "2,000 grains in places of their own")
+    for row in classes:
+        count = sum(close(grain[2], float(row["diameter_m"])) for grain in grains)
+        expect(abs(count - float(row["grains"])) < 1, f"{count} grains for {row['grains']}")
+    found, again = criteria(run, "B20"), criteria(run, "b20.csv")
+    expect(found["Kezdi"]["value"] == again["Kezdi"]["value"], "a name is a grading everywhere, and the classes are one")
+    # 201:1 and 24 % of fines.
+    wide = run.write("wide.csv", WIDE)
+    result = run("sample", wide, "--output", "wide_sample", "--variables-only")
+    expect("take 1.209e+06 grains, more than 150000" in result.stdout and "cut at --smallest 0.000243" in result.stdout, result.stdout)
+    result = run("sample", wide, "--smallest", 5.2e-4, "--output", "cut", "--grains", 3000, "--scale", 10)
+    expect("24 % of the mass are finer and left out" in result.stdout, result.stdout)
+    sizes = [float(row["diameter_m"]) for row in rows_without_comments(run.folder / "cut.csv")]
+    expect(len(sizes) == 20 and 5.2e-3 < sizes[0] < sizes[-1] < 0.315, f"ten times the sizes: {sizes}")
+    refused(run, "sample too dense", ("sample", run.write("equal.csv", "diameter_mm,mass_fraction\n1,0.5\n1.001,0.5\n"), "--split", 1.0005e-3, "--grains", 200, "--solid-fraction", 0.6, "--output", "no_o"), "lower --solid-fraction", ("no_o",))
+    for words, says in ((("nowhere",), "the names are A10"), ((wide, "--smallest", 0.04), "leave more than one size"),
+                        ((wide, "--grains", 1), "2 to 1e9"), ((wide, "--split", 1), "below the largest grain"),
+                        ((run.write("open.csv", WIDE.replace("0.125,0\n", "")),), "cut it there with --smallest 0.00025")):
+        refused(run, f"sample {words}", ("sample", *words, "--output", "no_o"), says, ("no_o",))
+
+
 def equal_spheres(run):
     # Nearly equal grains: Dc35 is the three-grain size in the dense state.
     run.write("equal.csv", "diameter_mm,mass_fraction\n1,0.5\n1.0000001,0.5\n")
@@ -97,9 +151,9 @@ BAD_FILES = {
     "no number": ("diameter_m,mass_fraction\n1e-3,0.5\n2e-3,nan\n", "line 3"),
     "a word": ("diameter_m,mass_fraction\n1e-3,0.5\ntwo,0.5\n", "'two'"),
     "short row": ("diameter_m,mass_fraction\n1e-3,0.5\n2e-3\n", "line 3"),
-    "empty": ("", "hold a grading"),
+    "empty": ("", "row of names"),
     "header only": ("diameter_m,mass_fraction\n", "at least two"),
-    "no sizes": ("size,mass_fraction\n1,1\n", "diameter_m"),
+    "no sizes": ("name,mass_fraction\n1,1\n", "diameter_m"),
     "two amounts": ("diameter_m,mass_fraction,mass_kg\n1e-3,1,1\n", "2 columns of amounts"),
 }
 
@@ -174,6 +228,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         run = Runner(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder))
         good_gradings(run, gradings)
+        ended_curve(run)
+        samples(run, gradings)
         good_packings(run)
         equal_spheres(run)
         constriction_limits(run, gradings)

@@ -10,8 +10,8 @@ namespace suffuse::micromechanics::testing {
 
 /// The thesis's gradings, read from input_scripts/gradings (SUFFUSE_GRADINGS), without the program's own
 /// reader.
-inline Grading appendix(const std::string& letter) {
-  std::ifstream file(std::string(SUFFUSE_GRADINGS) + "/appendix_" + letter + ".csv");
+inline Grading grading_file(const std::string& name) {
+  std::ifstream file(std::string(SUFFUSE_GRADINGS) + "/" + name + ".csv");
   std::vector<GradingClass> classes;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#' || line[0] == 'd') continue;
@@ -19,6 +19,10 @@ inline Grading appendix(const std::string& letter) {
     classes.push_back({std::stod(line.substr(0, comma)), std::stod(line.substr(comma + 1))});
   }
   return Grading::from_classes(classes);
+}
+
+inline Grading appendix(const std::string& letter) {
+  return grading_file("appendix_" + letter);
 }
 
 /// W = (d/largest)^power down to smallest, in enough points for 1e-3 of W.

@@ -228,3 +228,19 @@ TEST_CASE("a density, split or porosity out of range is refused") {
   options.porosity = 0;
   CHECK_THROWS_AS(analyse_constrictions(sample, options), UserError);
 }
+
+TEST_CASE("all splits that the sources allow, and no other") {
+  const auto finer = [](const std::vector<GradingSplit>& splits) {
+    std::vector<double> shares;
+    for (const GradingSplit& split : splits) shares.push_back(std::round(1e4 * split.finer) / 1e4);
+    return shares;
+  };
+  CHECK(finer(allowed_splits(grading_file("B20"))) == std::vector<double>{0.20});
+  CHECK(finer(allowed_splits(grading_file("11b"))) == std::vector<double>{0.25, 0.20});
+  CHECK(finer(allowed_splits(appendix("A"))) == std::vector<double>{0.30, 0.25, 0.20});
+  CHECK(allowed_splits(appendix("C")).size() == 1);  // continuously graded: at (H/F)min
+  ConstrictionLimits limits;
+  limits.split_margin = 0.06;
+  CHECK(finer(allowed_splits(grading_file("B20"), limits)) ==
+        std::vector<double>{0.20});  // 25 % lie in the coarse part
+}

@@ -136,3 +136,34 @@ TEST_CASE("bad gradings are refused in one line that names the size") {
   CHECK_THAT(curve_refusal({{1e-3, 0}, {2e-3, 80}}), Catch::Contains("between 0 and 100"));
   CHECK_THROWS_AS(Grading::from_grains(std::vector<double>{1e-3, std::nan("")}), UserError);
 }
+
+TEST_CASE("below the end of a curve nothing is defined, and above it everything is as before") {
+  // The sieves of a soil with 33 % finer than the last: its d50 does not depend on what passes that.
+  const Grading cut = Grading::from_curve(std::vector<GradingPoint>{{1e-4, 0.33}, {4e-4, 0.5}, {2e-3, 1}});
+  CHECK(cut.unknown_below() == Approx(0.33));
+  CHECK(cut.smallest() == 1e-4);
+  CHECK(cut.diameter_at(0.33) == Approx(1e-4));
+  CHECK(cut.diameter_at(0.5) == Approx(4e-4));
+  CHECK(std::isnan(cut.diameter_at(0.32)));
+  CHECK(std::isnan(cut.diameter_above(0.1)));
+  CHECK(std::isnan(cut.finer_at(0.9e-4)));
+  CHECK(std::isnan(cut.finer_below(0.9e-4)));
+  CHECK(std::isnan(cut.finer_at(std::nan(""))));
+  CHECK(cut.finer_below(1e-4) == Approx(0.33));
+  const GradingIndices indices = grading_indices(cut);
+  CHECK(std::isnan(indices.d10));
+  CHECK(std::isnan(indices.uniformity));
+  CHECK(std::isnan(indices.sauter));
+  CHECK(indices.d85 == Approx(4e-4 * std::pow(5, 0.7)));
+  CHECK_THROWS_AS(cut.classes(), UserError);
+  CHECK(curve_end(cut) == "the curve ends at 0.1 mm with 33 % finer");
+  CHECK(Grading::from_curve(std::vector<GradingPoint>{{1e-4, 0}, {2e-3, 1}}).unknown_below() == 0);
+}
+
+TEST_CASE("a flat stretch at the unknown end of a curve is no gap, since nobody knows how wide it is") {
+  const Grading open =
+      Grading::from_curve(std::vector<GradingPoint>{{1e-4, 0.30}, {3e-4, 0.31}, {4e-4, 0.315}, {2e-3, 1}});
+  CHECK_FALSE(open.gap());
+  CHECK(Grading::from_curve(std::vector<GradingPoint>{{0.5e-4, 0}, {1e-4, 0.30}, {3e-4, 0.31}, {2e-3, 1}})
+            .gap());
+}

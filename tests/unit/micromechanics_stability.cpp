@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grading_samples.h"
+#include "suffuse/common/error.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
 #include "suffuse/micromechanics/internal_stability.h"
 
@@ -189,4 +190,48 @@ TEST_CASE("every criterion has a limit, a verdict, and a source in the bibliogra
     CHECK_FALSE(result.limit.empty());
     CHECK((result.verdict == Verdict::not_applicable) == std::isnan(result.value));
   }
+}
+
+TEST_CASE("criteria that need what lies below the end of a curve do not apply, and say where it ends") {
+  // 33 % finer than the last sieve: no d30, no F = 20 %. d60 and d90 are known: from them alone nothing
+  // follows.
+  const Grading cut = Grading::from_curve(Points{{0.074e-3, 0.33},
+                                                 {0.149e-3, 0.35},
+                                                 {0.25e-3, 0.42},
+                                                 {0.42e-3, 0.51},
+                                                 {0.84e-3, 0.59},
+                                                 {2e-3, 0.77},
+                                                 {2.38e-3, 0.90},
+                                                 {4.76e-3, 1}});
+  for (const auto criterion : {istomina, kenney_lau, chapuis_kenney_lau, burenkova, liu, li_fannin,
+                               wan_fell_probability, wan_fell_slopes}) {
+    const CriterionResult result = criterion(cut, {});
+    INFO(result.criterion);
+    CHECK(std::isnan(result.value));
+    CHECK(result.verdict == Verdict::not_applicable);
+    CHECK_THAT(result.note, Catch::Contains("the curve ends at 0.074 mm with 33 % finer"));
+  }
+  // Unstable in the known part is unstable: D15c/d85f = 4.77 at the split at 38.8 %, whose d85f is the last
+  // sieve.
+  CHECK(kezdi(cut).verdict == Verdict::unstable);
+  CHECK(kezdi(cut).value == Approx(4.774).epsilon(1e-3));
+  // Stable there is not known to be stable.
+  CHECK(sherard(cut).verdict == Verdict::not_applicable);
+  CHECK_THAT(sherard(cut).note, Catch::Contains("what is known gives 4.774"));
+  CHECK_THROWS_AS(analyse_constrictions(cut, {}), suffuse::UserError);
+}
+
+TEST_CASE("a curve that ends with little below it is searched as far as it goes") {
+  // Straight over two decades, but for its lowest 3 %.
+  const auto at = [](double finer) { return 1e-4 * std::pow(100, finer); };
+  const Grading whole = straight(1e-4, 2);
+  const Grading ended = Grading::from_curve(Points{{at(0.03), 0.03}, {1e-2, 1}});
+  const CriterionResult result = kenney_lau(ended);
+  CHECK(result.verdict == kenney_lau(whole).verdict);
+  CHECK(result.value == Approx(kenney_lau(whole).value));
+  CHECK_THAT(result.note, Catch::Contains("searched as far as the curve ends"));
+  CHECK(istomina(ended).value == Approx(istomina(whole).value));
+  StabilityLimits strict;
+  strict.unknown_fines = 0.02;
+  CHECK(kenney_lau(ended, strict).verdict == Verdict::not_applicable);
 }

@@ -39,7 +39,7 @@ def must_say(report, *texts):
 def check_words(program, gradings):
     # The thesis's 11a (Appendix B): a gap of 5.5 and 20 % of fines, unstable in its Table 4.1 in all states.
     unstable = program.must_run(gradings / "appendix_B.csv")
-    must_say(unstable, "Internally unstable by the constriction criterion of chapter 4", "no sample was measured",
+    must_say(unstable, "Internally unstable: the pores' controlling constriction over the larger fine grains (Dc35/d85) is 1.55 in the loosest, 0.975 in the densest", "No sample was measured",
              "Agreed on unstable: sizes of both parts of the grading; shape of the curve",
              "Divided on gap, fines, uniformity: stable by Istomina; unstable by Honjo, Liu.",
              "Indraratna 2015 depends on the density, which is not given: unstable in the loosest state (1.55), stable in the densest (0.975)",
@@ -48,16 +48,32 @@ def check_words(program, gradings):
     # Well graded, Cu = 5: what every criterion was made to pass, but for Kovacs's, which needs the porosity.
     program.folder.joinpath("well.csv").write_text("diameter_mm,percent_finer\n0.1,0\n0.15,10\n0.3,35\n0.6,60\n1.2,82\n2.4,100\n")
     stable = program.must_run("well.csv", "--relative-density", 0.7)
-    must_say(stable, "Internally stable by the constriction criterion of chapter 4", "19 criteria apply: stable 19, transitional 0, unstable 0",
+    must_say(stable, "Internally stable: the pores' controlling constriction", "19 criteria apply: stable 19, transitional 0, unstable 0",
              "None: all groups of criteria are of one mind.", "this one has no gap")
     # 8b (Appendix A): stable by Table 4.1, but some criteria on sizes say otherwise, and Kovacs's.
     divided = program.must_run(gradings / "appendix_A.csv", "--relative-density", 0.5, "--porosity", 0.25, "--top-stress", 1e4, "--thickness", 0.1)
-    must_say(divided, "Internally stable by the constriction criterion of chapter 4 (Dc35/d85 = 0.491)",
+    must_say(divided, "Internally stable: the pores' controlling constriction over the larger fine grains (Dc35/d85) is 0.491; unstable from 0.73",
              "Divided on shape of the curve: stable by Kenney and Lau", "unstable by Lubochkov. Why:", "unstable by Kovacs. Why:",
              "Agreed on unstable: ratios of coarse and fine sizes", "transitional by Liu", "alpha = 1.279 (predicted, eq 4.8), taken as 1",
              f"| critical gradient, Terzaghi | {1.65 * 0.75:.4g} |", "Li and Fannin")
     strict = program.must_run(gradings / "appendix_A.csv", "--limit", "chapter_4=0.4", "--limit", "kezdi=2", "--relative-density", 0.5)
-    must_say(strict, "Internally unstable by the constriction criterion of chapter 4 (Dc35/d85 = 0.491)", "| Kezdi | unstable |")
+    must_say(strict, "Internally unstable: the pores' controlling constriction over the larger fine grains (Dc35/d85) is 0.491", "| Kezdi | unstable |")
+
+
+def check_splits(program, gradings):
+    """A verdict that the rule of the split decides is none: the same words on both sides of its thresholds."""
+    for density in (0.64, 0.65):  # where the thesis's rule goes from 25 to 20 %
+        must_say(program.must_run("11b", "--relative-density", density), "It depends on the split", "(unstable), cut at 25 % (at the gap)",
+                 "(stable), cut at 20 % (as it does in dense ones)", "hangs on the split")
+    classes = [(d, m) for d, m in (line.split(",") for line in (gradings / "11b.csv").read_text().splitlines()[2:])]
+    for fines in (0.249, 0.250):  # where it goes from the gap to 25 %
+        share = {True: fines / 0.25, False: (1 - fines) / 0.75}
+        program.folder.joinpath("near.csv").write_text("diameter_m,mass_fraction\n" + "".join(
+            f"{d},{float(m) * share[float(d) < 3e-4]:.12g}\n" for d, m in classes))
+        must_say(program.must_run("near.csv", "--relative-density", 0.95), "It depends on the split", "(unstable), cut at", "(stable), cut at 20 %")
+    given = program.must_run("11b", "--relative-density", 0.95, "--cut", 0.25)
+    must_say(given, "Internally unstable")
+    check("depends on the split" not in given, "the user gave the split")
 
 
 def write_sample(folder, fines_each):
@@ -91,14 +107,14 @@ def check_sample(program, gradings):
     # Seven fines a coarse grain: Z = 6/8 and alpha = 0, beyond both limits; R = Z 3/12.
     write_sample(program.folder, 7)
     report = program.must_run(grading, *sample)
-    must_say(report, "Internally unstable, measured on the sample (Z = 0.75, alpha = 0), by both wordings of chapter 4",
+    must_say(report, "Internally unstable, measured on the sample: 0.75 contacts a grain (Z), fines under 0 of the mean stress (alpha). The limits are 1 and 0.5.",
              "| measured, pair halves (the thesis's) | 0.75 | 0 | unstable | unstable |", "| measured, contact point (eq 4.2) | 0.75 | 0 | unstable | unstable |",
              "Fabric case I, alpha by pair halves: Z_fc = 0, alpha = 0: fines lie loose", "| R | 0.1875 | fluid-like |",
              "| critical gradient of the fines, Skempton and Brogan | 0 |", "alpha = 0 (the sample, pair halves)", "| sliding contacts, share | 0 |")
     # One: Z = 6/2 is above its limit, alpha is not; the two wordings part.
     write_sample(program.folder, 1)
     report = program.must_run(grading, *sample)
-    must_say(report, "Between stable and unstable, measured on the sample (Z = 3, alpha = 0)",
+    must_say(report, "Between stable and unstable, measured on the sample: 3 contacts a grain (Z), fines under 0 of the mean stress (alpha)",
              "with \"or\" the sample is unstable, with \"simultaneously\" stable", "| R | 0.75 | fluid-like |")
     # A stable grading in this state: the criteria say one thing, the sample another.
     must_say(program.must_run(gradings / "appendix_A.csv", *sample), "The measured numbers count.",
@@ -183,6 +199,18 @@ def check_flow(program, gradings, figures, python):
             done = subprocess.run(again, cwd=program.folder / "flowing", capture_output=True, text=True, timeout=120)
             check(done.returncode == 0, f"{again}: {done.stderr}")
             check((program.folder / "flowing/again.svg").read_bytes() == (program.folder / f"flowing/{name}.svg").read_bytes(), f"{name}: the same figure again")
+    # A sample with it is judged as it stands at rest, in its first snapshot: contacts in that one, none in the lifted last.
+    write_sample(program.folder, 1)
+    for name in ("grains", "contacts"):
+        rest = (program.folder / f"{name}.dump").read_text()
+        lifted = rest.replace("ITEM: TIMESTEP\n7", "ITEM: TIMESTEP\n9")
+        if name == "contacts":
+            lifted = re.sub(r"(NUMBER OF ENTRIES\n)\d+", r"\g<1>0", lifted)
+            lifted = lifted[:lifted.index("\n", lifted.index("ITEM: ENTRIES c")) + 1]
+        (program.folder / f"two_{name}.dump").write_text(rest + lifted)
+    sample = ("--sample", "two_grains.dump", "two_contacts.dump", "--split", 0.5e-3)
+    must_say(program.must_run(*words, *sample), "measured on the sample at rest: 3 contacts a grain", "First snapshot.", "step 7")
+    must_say(program.must_run(words[0], *sample), "| contacts | 0 |", "Last snapshot.", "step 9")
     (program.folder / "no_flow.csv").write_text("time_s,grains\n0,1\n1,1\n")
     program.must_refuse((gradings / "appendix_C.csv", "--flow", "no_flow.csv"), "no_flow.csv", "column")
     program.must_refuse((gradings / "appendix_C.csv", "--flow", "nowhere.csv"), "nowhere.csv")
@@ -244,6 +272,7 @@ def main():
         program = Verdict(str(pathlib.Path(options.analyse).resolve()), pathlib.Path(folder), "verdict")
         gradings = options.gradings.resolve()
         check_words(program, gradings)
+        check_splits(program, gradings)
         check_sample(program, gradings)
         check_example(program, gradings, options.documents.resolve())
         python = python_with_figures()

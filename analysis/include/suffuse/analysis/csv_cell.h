@@ -4,12 +4,9 @@
 #include <utility>
 #include <vector>
 
-namespace suffuse::analysis {
+#include "suffuse/analysis/csv_file.h"
 
-/// The cells of a line of a CSV file; those in quotes may have commas, and "" for a quote.
-std::vector<std::string> csv_cells(const std::string& line);
-/// A text as a cell: in quotes where it needs them.
-std::string csv_text(const std::string& text);
+namespace suffuse::analysis {
 
 /// A number in a CSV file: of the row in which the columns of `where` have these values, or, without `where`,
 /// `take` of a whole column.

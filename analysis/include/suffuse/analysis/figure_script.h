@@ -1,13 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace suffuse::analysis {
-
-/// The folder of the program that runs; empty without /proc.
-std::filesystem::path program_folder();
 
 /// Runs one of analysis/figures/*.py, e.g. make_figure("rose.py", {"rose.csv", "--output", "rose.png"},
 /// "rose").

@@ -23,6 +23,7 @@ struct ConstrictionLimits {
   double fines_split = 0.25;      ///< with at least these fines at the gap, the split is here,
   double dense_split = 0.20;      ///< and here in the dense state (thesis chapter 4)
   double dense_from = 0.65;       ///< relative density from which a state is dense (the thesis's is 0.95)
+  double split_margin = 0.025;    ///< fines so close below fines_split may be either (allowed_splits)
 };
 
 /// A limit that can be set by name; none of the names is one of StabilityLimits.
@@ -42,6 +43,12 @@ struct GradingSplit {
 /// 25 % with more, 20 % in the dense state.
 GradingSplit thesis_split(const Grading& grading, double relative_density,
                           const ConstrictionLimits& limits = {}, const StabilityLimits& stability = {});
+
+/// Every split that the sources allow: of a continuous grading that at (H/F)min; of a gap-graded one that at
+/// the gap (Indraratna 2015), and, with at least fines_split - split_margin of fines, those at fines_split
+/// and dense_split (chapter 4). A verdict that they do not share hangs on a rule and not on the soil.
+std::vector<GradingSplit> allowed_splits(const Grading& grading, const ConstrictionLimits& limits = {},
+                                         const StabilityLimits& stability = {});
 
 struct ConstrictionOptions {
   double relative_density = 0;  ///< R_d, 0 to 1

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct GradingPoint {
 struct GradingClass {
   double diameter = 0;
   double mass = 0;
+  bool operator==(const GradingClass&) const = default;
 };
 
 /// The almost horizontal part of a gap-graded curve.
@@ -38,7 +40,8 @@ struct GapRule {
   double curve_rise = 0.02;
 };
 
-/// A particle size distribution by mass. Sizes in m, shares 0 to 1, interpolation straight over log d.
+/// A particle size distribution by mass. Sizes in m, shares 0 to 1, interpolation straight over log d. A
+/// curve whose first point is not at 0 says nothing of the grains below it: what lies there is undefined.
 ///
 /// From classes, each class is spread over log d to half-way to its neighbours; at a gap and at the two ends
 /// over as much as on its other side (a class without neighbours stays one size). So read, the thesis's bins
@@ -49,37 +52,48 @@ class Grading {
   /// positive and finite, unsorted or repeated sizes. The masses are normalised.
   static Grading from_classes(std::span<const GradingClass> classes, const GapRule& rule = {});
   /// Cumulative points, rising in size, not falling in mass, ending at 1 (within 0.5 %, then normalised).
-  /// Mass below the first point is taken as grains of its size. Throws UserError otherwise.
+  /// Where the first point is above 0 the curve ends there: see unknown_below(). Throws UserError otherwise.
   static Grading from_curve(std::span<const GradingPoint> points, const GapRule& rule = {});
   /// Spheres of one density, in any order (m). Sizes that agree to 1e-6 are one class;
   /// more than 200 sizes are gathered in 200 classes of equal mass.
   static Grading from_grains(std::span<const double> diameters, const GapRule& rule = {});
 
-  /// d_xx, m: the smallest size up to which the share `finer` (0 to 1) of the mass lies.
+  /// d_xx, m: the smallest size up to which the share `finer` (0 to 1) of the mass lies. NaN below the end of
+  /// the curve.
   double diameter_at(double finer) const;
   /// The largest such size: differs from diameter_at where the curve is flat.
   double diameter_above(double finer) const;
   /// Share of the mass in grains up to this size, and in grains below it (they differ where the curve jumps).
+  /// NaN below the end of the curve.
   double finer_at(double diameter) const;
   double finer_below(double diameter) const;
 
   const std::vector<GradingPoint>& curve() const { return curve_; }
+  /// The classes it was made of, normalised; none where it was made of a curve.
+  const std::vector<GradingClass>& own_classes() const { return classes_; }
   /// The widest gap with between 1 and 99 % of the mass below it; none in a continuous grading.
   const std::optional<GradingGap>& gap() const { return gap_; }
+  /// Share of the mass in grains below smallest(), of which the curve says nothing; 0 where it is known
+  /// whole.
+  double unknown_below() const { return unknown_below_; }
   double smallest() const { return curve_.front().diameter; }
   double largest() const { return curve_.back().diameter; }
 
   /// The classes it was made of if these are at most `most`; otherwise `most` classes of equal mass, each at
-  /// the size of its middle.
+  /// the size of its middle. Throws UserError where the curve is not known whole.
   std::vector<GradingClass> classes(std::size_t most = 40) const;
 
  private:
   std::vector<GradingClass> classes_;
   std::vector<GradingPoint> curve_;
   std::optional<GradingGap> gap_;
+  double unknown_below_ = 0;
 };
 
-/// Numbers that describe the curve.
+/// "the curve ends at 0.074 mm with 33 % finer", for results that need more of it.
+std::string curve_end(const Grading& grading);
+
+/// Numbers that describe the curve; NaN where it is not known.
 struct GradingIndices {
   double d5 = 0, d10 = 0, d15 = 0, d20 = 0, d30 = 0, d50 = 0, d60 = 0, d85 = 0, d90 = 0;  ///< m
   double uniformity = 0;                                                                  ///< C_u = d60/d10

@@ -35,7 +35,9 @@ struct StabilityLimits {
   double lubochkov = 1;                    ///< stable below
   double kezdi = 4;                        ///< D15c/d85f up to which stable
   double sherard = 5;                      ///< the same in Sherard's version
-  double kenney_lau = 1;                  ///< (H/F)min above which stable (1.3 before the discussion of 1986)
+  double kezdi_from_finer =
+      0;                  ///< F from which splits are searched; Table 4.1's ratios are those from 5 % on
+  double kenney_lau = 1;  ///< (H/F)min above which stable (1.3 before the discussion of 1986)
   double kenney_lau_wide_finer = 0.20;    ///< F searched, widely graded
   double kenney_lau_narrow_finer = 0.30;  ///< F searched, narrowly graded, and gap-graded (as Table 4.1 does)
   double kenney_lau_narrow_cu = 3;        ///< C_u up to which a soil is narrowly graded
@@ -51,6 +53,8 @@ struct StabilityLimits {
   double wan_fell_probability = 0.5;  ///< of the logistic form: unstable above
   double wan_fell_coarse = 80;        ///< 30/log10(d90/d60) up to which stable
   double wan_fell_fine = 22;          ///< 15/log10(d20/d5) from which stable
+  /// Share of the mass below the end of the curve up to which criteria that search the curve may say stable.
+  double unknown_fines = 0.05;
 };
 
 /// A limit that can be set by name.
@@ -60,7 +64,8 @@ struct LimitName {
 };
 const std::vector<LimitName>& limit_names();
 
-/// (H/F)min and where it is. `finer_limit`: the F up to which it was searched.
+/// (H/F)min and where it is. `finer_limit`: the F up to which it was searched. Where the curve ends above
+/// that F: infinity, at F = 0.
 struct ShapeMinimum {
   double ratio = 0;
   double finer = 0;     ///< F
@@ -69,12 +74,13 @@ struct ShapeMinimum {
 };
 ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& limits = {});
 
-/// max over all splits F of D15 of the coarse over d85 of the fine fraction, exact for the curve.
+/// max over all splits from F = `from_finer` on of D15 of the coarse over d85 of the fine fraction, exact for
+/// the curve.
 struct SplitMaximum {
   double ratio = 0;
   double finer = 0;  ///< split at this F; at a gap the value is the one just beside it
 };
-SplitMaximum maximum_split_ratio(const Grading& grading);
+SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer = 0);
 
 CriterionResult usace(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult istomina(const Grading& grading, const StabilityLimits& limits = {});
@@ -95,7 +101,9 @@ CriterionResult wan_fell_probability(const Grading& grading, const StabilityLimi
 /// Wan and Fell's slopes of the coarse and the fine part.
 CriterionResult wan_fell_slopes(const Grading& grading, const StabilityLimits& limits = {});
 
-/// All of the above, in the thesis's order.
+/// All of the above, in the thesis's order. A criterion that needs a size below the end of the curve does not
+/// apply, and says where the curve ends; one that searches the curve looks at what is known of it: unstable
+/// there is unstable, stable there only counts where at most `unknown_fines` lie below.
 std::vector<CriterionResult> grading_criteria(const Grading& grading, const StabilityLimits& limits = {});
 
 }  // namespace suffuse::micromechanics

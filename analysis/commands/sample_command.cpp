@@ -1,0 +1,270 @@
+#include "commands/sample_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "commands/criteria_table.h"
+#include "commands/sample_script.h"
+#include "suffuse/analysis/grading_names.h"
+#include "suffuse/analysis/number_parser.h"
+#include "suffuse/common/error.h"
+#include "suffuse/micromechanics/constriction_criteria.h"
+
+namespace suffuse::analysis {
+namespace {
+
+using namespace micromechanics;
+
+constexpr const char* kWho = "sample";
+
+struct Options {
+  std::string grading, output = "sample", name, grains;
+  std::optional<double> smallest, solid_fraction, split;
+  double coarse = 500, scale = 1, affordable = 150000;
+  std::size_t classes = 20;
+  std::uint64_t seed = 32452867;
+  double density = 2650;
+  std::optional<double> box_edge;
+  bool quiet = false, variables_only = false;
+};
+
+/// `--grains`: a number, or `thesis` and none, as many as --coarse takes but for the thesis's samples.
+double grains_wanted(const Options& options, const std::optional<NamedGrading>& named, double for_coarse) {
+  if (options.grains.empty()) return std::ceil(for_coarse);
+  if (options.grains == "thesis") return named ? named->thesis_grains : std::ceil(for_coarse);
+  double grains = 0;
+  if (!parse_number(std::string_view(options.grains), grains) || !(grains >= 2 && grains <= 1e9))
+    throw_user_error({kWho, "--grains", options.grains, "be 2 to 1e9, or thesis", ""});
+  return std::round(grains);
+}
+
+void check(const Options& options) {
+  const auto must = [](bool fine, const char* option, double value, const char* rule,
+                       const char* remedy = "") {
+    if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, remedy});
+  };
+  if (options.smallest) must(*options.smallest > 0, "--smallest", *options.smallest, "be > 0", "in m");
+  if (options.split) must(*options.split > 0, "--split", *options.split, "be > 0", "in m");
+  if (options.solid_fraction)
+    must(*options.solid_fraction > 0 && *options.solid_fraction < 0.74, "--solid-fraction",
+         *options.solid_fraction, "be between 0 and 0.74");
+  if (options.box_edge) must(*options.box_edge > 0, "--box-edge", *options.box_edge, "be > 0", "in m");
+  must(options.density > 0, "--density", options.density, "be > 0");
+  must(options.coarse >= 1, "--coarse", options.coarse, "be >= 1");
+  must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
+  must(options.affordable >= 1, "--affordable", options.affordable, "be >= 1");
+  if (options.classes < 2 || options.classes > 200)
+    throw_user_error({kWho, "--classes", fmt::format("{}", options.classes), "be 2 to 200", ""});
+}
+
+/// The size between fines and coarse grains, and why; of the grading as it is, before --scale.
+struct Split {
+  double diameter = 0;
+  std::string why;
+};
+
+Split split_of(const Grading& grading, const std::vector<GradingClass>& classes, const Options& options) {
+  Split split{options.split.value_or(0), "given"};
+  if (!options.split) {
+    if (const auto& gap = grading.gap()) {
+      // Between the classes themselves, as a simulation has them.
+      const auto coarse = std::find_if(classes.begin(), classes.end(), [&](const GradingClass& one) {
+        return one.diameter > gap->finer_diameter * (1 + 1e-9);
+      });
+      split = {std::sqrt((coarse - 1)->diameter * coarse->diameter), "in the gap"};
+    } else {
+      const GradingSplit rule = thesis_split(grading, 0);
+      split = {grading.diameter_at(rule.finer),
+               fmt::format("{:.3g} % finer, {}", 100 * rule.finer, rule.rule)};
+    }
+  }
+  if (classes.back().diameter < split.diameter)
+    throw_user_error({kWho, "--split", fmt::format("{:g} m", split.diameter),
+                      fmt::format("be below the largest grain, {:g} m", classes.back().diameter), ""});
+  return split;
+}
+
+struct Plan {
+  Grading grading;
+  double lost = 0;
+  std::vector<GradingClass> classes;
+  Split split;
+  double for_coarse = 0;
+  GrainSample sample;
+  double box_edge = 0;
+};
+
+Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
+  Grading grading = grading_of_file(options.grading, kWho);
+  Plan plan{grading, 0, {}, {}, 0, {}, 0};
+  if (options.smallest) {
+    CutGrading cut = cut_below(grading, *options.smallest);
+    plan.grading = std::move(cut.grading);
+    plan.lost = cut.lost;
+  } else if (grading.unknown_below() > 0) {
+    throw_user_error(
+        {kWho, options.grading, curve_end(grading), "be known down to its smallest grain",
+         fmt::format("cut it there with --smallest {:.4g}, or add a row with the smallest size and 0",
+                     grading.smallest())});
+  }
+  plan.classes = sample_classes(plan.grading, options.classes);
+  plan.split = split_of(plan.grading, plan.classes, options);
+  plan.for_coarse = grains_with_coarse(plan.classes, options.coarse, plan.split.diameter);
+  const double wanted = grains_wanted(options, named, plan.for_coarse);
+  for (GradingClass& one : plan.classes) one.diameter *= options.scale;
+  plan.split.diameter *= options.scale;
+  plan.sample = grain_sample(plan.classes, wanted, plan.split.diameter);
+  plan.box_edge = options.solid_fraction
+                      ? std::cbrt(plan.sample.solids / *options.solid_fraction)
+                      : placing_box_edge(plan.sample, placing_solid_fraction(plan.classes));
+  return plan;
+}
+
+/// The least size from which on so many coarse grains are affordable, and what is lost; none where no cut
+/// helps.
+std::optional<std::pair<double, double>> affordable_cut(const Options& options, const Plan& plan) {
+  double low = plan.grading.smallest(), high = plan.split.diameter / options.scale;
+  const auto need = [&](double smallest) {
+    const CutGrading cut = cut_below(plan.grading, smallest);
+    return grains_with_coarse(sample_classes(cut.grading, options.classes), options.coarse,
+                              plan.split.diameter / options.scale);
+  };
+  if (need(high) > options.affordable) return std::nullopt;
+  for (int k = 0; k < 40; ++k) {
+    const double middle = std::sqrt(low * high);
+    (need(middle) > options.affordable ? low : high) = middle;
+  }
+  return std::pair{high, cut_below(plan.grading, high).lost};
+}
+
+std::string notes_of(const Options& options, const Plan& plan) {
+  const double largest = plan.classes.back().diameter, smallest = plan.classes.front().diameter;
+  std::string text;
+  if (plan.lost > 0)
+    text += fmt::format("note: cut at {:.4g} mm: {:.3g} % of the mass are finer and left out\n",
+                        1e3 * *options.smallest, 100 * plan.lost);
+  if (plan.sample.coarse < options.coarse - 0.5)
+    text += fmt::format(
+        "note: {:.0f} coarse grains, fewer than {:g}: another seed will give another result; see how far "
+        "they scatter\n",
+        plan.sample.coarse, options.coarse);
+  if (plan.for_coarse > options.affordable) {
+    text += fmt::format(
+        "warning: {:g} coarse grains take {:.4g} grains, more than {:g} (--affordable): the sizes span "
+        "{:.0f}:1 ({:.4g} to {:.4g} mm)",
+        options.coarse, plan.for_coarse, options.affordable, largest / smallest, 1e3 * smallest,
+        1e3 * largest);
+    if (const auto cut = affordable_cut(options, plan))
+      text += fmt::format("; cut at --smallest {:.3g} (m) they take {:g}, without {:.3g} % of the mass\n",
+                          cut->first, options.affordable, 100 * cut->second);
+    else
+      text += "; no cut of the fines helps\n";
+  }
+  const auto rare = std::count_if(plan.sample.classes.begin(), plan.sample.classes.end(),
+                                  [](const SampleClass& one) { return one.grains < 1; });
+  if (rare > 0)
+    text += fmt::format(
+        "warning: {} of {} sizes have less than one grain: take more grains, or fewer --classes\n", rare,
+        plan.sample.classes.size());
+  return text;
+}
+
+std::string screen_text(const Options& options, const Plan& plan) {
+  const GrainSample& sample = plan.sample;
+  std::string text = fmt::format("{:>12}  {:>9}  {:>10}\n", "diameter mm", "mass %", "grains");
+  for (const SampleClass& one : sample.classes)
+    text += fmt::format("{:>12.5g}  {:>9.4g}  {:>10.1f}\n", 1e3 * one.diameter, 100 * one.mass, one.grains);
+  text +=
+      fmt::format("{:.0f} grains, {:.0f} of them coarse; {:.3g} % of fines by mass, below {:.4g} mm ({})\n",
+                  sample.grains, sample.coarse, 100 * sample.fines_share, 1e3 * sample.split, plan.split.why);
+  text += fmt::format("{:g} coarse grains take {:.0f} grains\n", options.coarse, std::ceil(plan.for_coarse));
+  text += fmt::format("box to place them in: {:.4g} mm wide, {:.3g} of it solid\n", 1e3 * plan.box_edge,
+                      sample.solids / std::pow(plan.box_edge, 3));
+  return text;
+}
+
+void run(const Options& options) {
+  check(options);
+  const std::optional<NamedGrading> named =
+      std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kWho);
+  const Plan plan = plan_of(options, named);
+  SampleScript script{"",
+                      plan.sample,
+                      plan.box_edge,
+                      options.name,
+                      named ? named->table_4_1 : "",
+                      named ? named->table_5_1 : ""};
+  if (script.name.empty())
+    script.name = named ? named->name : std::filesystem::path(options.grading).stem().string();
+  std::string made =
+      fmt::format("suffuse-analyse sample {} --grains {:.0f}", options.grading, plan.sample.grains);
+  if (options.smallest) made += fmt::format(" --smallest {:g}", *options.smallest);
+  if (options.split) made += fmt::format(" --split {:g}", *options.split);
+  if (options.scale != 1) made += fmt::format(" --scale {:g}", options.scale);
+  if (options.classes != 20) made += fmt::format(" --classes {}", options.classes);
+  if (options.solid_fraction) made += fmt::format(" --solid-fraction {:g}", *options.solid_fraction);
+  script.title = script.name + ": written by " + made;
+  const std::string who = "sample --output";
+  if (options.box_edge) script.box_edge = *options.box_edge;
+  SafeFile variables(options.output + ".inc", who);
+  write_sample_variables(variables, script);
+  if (options.variables_only) {
+    variables.commit();
+    if (!options.quiet) fmt::print("{}{}", screen_text(options, plan), notes_of(options, plan));
+    return;
+  }
+  SafeFile templates(options.output + "_templates.inc", who), classes(options.output + ".csv", who);
+  SafeFile data(options.output + ".data", who);
+  write_sample_data(data, script, options.density, options.seed);
+  write_sample_templates(templates, script);
+  write_sample_classes(classes, script);
+  for (SafeFile* file : {&variables, &templates, &classes, &data}) file->commit();
+  if (!options.quiet) fmt::print("{}", screen_text(options, plan));
+  fmt::print("{}", notes_of(options, plan));
+}
+
+}  // namespace
+
+void add_sample(CLI::App& app) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      kWho, "From a grading to grains for a simulation: classes, counts, box, LIGGGHTS templates");
+  command
+      ->add_option("PSD", options->grading,
+                   "grading: CSV file or dump of grains, as in `grading`, or a name such as B20")
+      ->required();
+  command->add_option(
+      "--grains", options->grains,
+      "how many, or thesis: as many as it printed for this sample; as many as --coarse takes if not given");
+  command->add_option("--coarse", options->coarse, "coarse grains that make a sample (thesis section 4.3)")
+      ->capture_default_str();
+  command->add_option("--smallest", options->smallest, "leave out grains below this diameter, m");
+  command->add_option("--scale", options->scale, "all sizes times this")->capture_default_str();
+  command->add_option(
+      "--split", options->split,
+      "fines are the grains of a smaller diameter, m; in the gap, or at (H/F)min, if not given");
+  command->add_option("--classes", options->classes, "sizes that a curve is read as")->capture_default_str();
+  command->add_option("--solid-fraction", options->solid_fraction,
+                      "share of the box that the placed grains fill");
+  command->add_option("--affordable", options->affordable, "number of grains above which to warn")
+      ->capture_default_str();
+  command->add_option("--name", options->name, "of the sample; the grading's if not given");
+  command
+      ->add_option("--output", options->output,
+                   "STEM: writes STEM.inc, STEM.data, STEM_templates.inc, STEM.csv")
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the places; another one gives another sample")
+      ->capture_default_str();
+  command->add_option("--density", options->density, "of the grains, kg/m3")->capture_default_str();
+  command->add_option("--box-edge", options->box_edge, "of the cube that the grains are placed in, m");
+  command->add_flag("--variables-only", options->variables_only, "write STEM.inc only");
+  command->add_flag("--quiet", options->quiet, "notes and warnings only");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace suffuse::analysis

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "suffuse/common/linear_algebra.h"
+
+namespace suffuse::micromechanics {
+
+/// A grain where it was placed; in the cube from 0 to the edge, m.
+struct PlacedGrain {
+  Vec3 centre = Vec3::Zero();
+  double diameter = 0;
+};
+
+/// Spheres of these diameters (m) at random in a periodic cube, none in touch, by random sequential addition
+/// from the largest to the smallest (key: torquato2006). The same for the same seed, on any machine. Throws
+/// UserError where a grain is wider than the cube, or finds no place in 2 million tries.
+std::vector<PlacedGrain> place_at_random(std::span<const double> diameters, double edge, std::uint64_t seed);
+
+}  // namespace suffuse::micromechanics
