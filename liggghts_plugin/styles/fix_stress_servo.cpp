@@ -15,10 +15,10 @@
 #include "fix_contact_sampler.h"
 #include "modify.h"
 #include "output.h"
+#include "pair_law.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/bulk_stiffness.h"
-#include "suffuse/micromechanics/dem_time_step.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -103,16 +103,11 @@ void FixStressServo::init() {
 }
 
 void FixStressServo::set_static_window() {
-  const auto elastic = suffuse::elastic_constants(lmp);
   if (arguments_.window_steps > 0) {
     window_ = static_cast<double>(arguments_.window_steps) * update->dt;
-  } else if (elastic.known) {
-    const auto grains = suffuse::grain_statistics(lmp, groupbit);
-    const double rayleigh = mm::rayleigh_time(
-        {elastic.youngs_modulus, elastic.poisson_ratio, density_, 2 * grains.smallest_radius});
-    window_ = kStaticRayleighTimes * rayleigh;
   } else {
-    window_ = 20000 * update->dt;
+    const auto law = suffuse::PairLaw::of(lmp, "fix stress/servo");
+    window_ = kStaticRayleighTimes * suffuse::critical_grain(lmp, law, 1).time;
   }
   const double steps = window_ / update->dt / kSamplesPerWindow;
   network_every_ = std::max<bigint>(1, static_cast<bigint>(steps) / arguments_.every) * arguments_.every;
