@@ -37,6 +37,9 @@ class FixStressServo : public Fix {
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
 
+  /// On its way to its target, which it has not reached before.
+  bool approaching() const { return state_.phase == suffuse::servo::Phase::kApproaching; }
+
  private:
   void set_static_window();
   void schedule();
