@@ -15,6 +15,8 @@ constexpr double kSlowness = 10;
 constexpr double kCorrection = 0.2;
 /// Constrained modulus over bulk modulus of a packing of central springs: (1/5)/(1/9).
 constexpr double kConstrainedOverBulk = 1.8;
+/// Control steps are at most so many times as frequent as the longest interval.
+constexpr std::int64_t kMostFrequent = 10;
 /// The bulk modulus of a packing is several times its pressure, for Hertz about κ/2; a floor for nearly empty
 /// networks.
 constexpr double kLeastStiffnessOverTarget = 3;
@@ -36,7 +38,7 @@ double stiffness_of(const Settings& s, const Measurement& m) {
 /// Equal rates on all axes, towards p' = target.
 void drive_isotropic(const Settings& s, const Measurement& m, State& state) {
   const double p = mean_stress(m.stress);
-  const double limit = rate_limit(s, m.inertial_time, p);
+  const double limit = rate_limit(s, m.inertial_size, p);
   // Three axes at the same rate: the volume strains three times as fast. Nothing strains a sample at rest, so
   // there is no standing error for integral action to remove, only an overshoot for it to cause.
   const double rate = (s.target - p) / (3 * stiffness_of(s, m) * m.relaxation_time);
@@ -46,7 +48,7 @@ void drive_isotropic(const Settings& s, const Measurement& m, State& state) {
 
 /// Each axis on its own, towards the same stress on all.
 void drive_to_cell_pressure(const Settings& s, const Measurement& m, State& state) {
-  const double limit = rate_limit(s, m.inertial_time, mean_stress(m.stress));
+  const double limit = rate_limit(s, m.inertial_size, mean_stress(m.stress));
   for (int i = 0; i < 3; ++i)
     state.rate[i] =
         drive(s.target - m.stress[i], kConstrainedOverBulk * stiffness_of(s, m), m, limit, state.bias[i]);
@@ -86,8 +88,8 @@ void follow_laterally(const Settings& s, const Measurement& m, double target, do
 /// Axial rate as ordered, started smoothly, and no faster than the inertial number allows.
 double axial_rate(const Settings& s, const Measurement& m, State& state) {
   state.axial_ramp = std::min(1.0, state.axial_ramp + m.interval / (kSlowness * m.relaxation_time));
-  const double limit = s.path == Path::kConstantVolume ? rate_limit(s, m.inertial_time, mean_stress(m.stress))
-                                                       : rate_limit(s, m.inertial_time, s.target);
+  state.largest_stress = std::max(state.largest_stress, mean_stress(m.stress));
+  const double limit = axial_rate_limit(s, state, m);
   const double ordered = s.axial_rate > 0 ? std::min(s.axial_rate, limit) : limit;
   return ordered * state.axial_ramp * state.axial_direction;
 }
@@ -115,7 +117,7 @@ void shear(const Settings& s, const Measurement& m, State& state) {
   const double axial_stress_rate = (m.stress[s.axis] - state.last_stress[s.axis]) / m.interval;
   // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
   // the axis.
-  const double limit = 2 * std::max(rate_limit(s, m.inertial_time, s.target), std::abs(axial));
+  const double limit = 2 * std::max(rate_limit(s, m.inertial_size, s.target), std::abs(axial));
   follow_laterally(s, m, target, constant_mean ? -0.5 * axial_stress_rate : 0.0, limit, state);
 }
 
@@ -167,11 +169,38 @@ double deviatoric_stress(const Vec3& stress, int axis) {
   return stress[axis] - 0.5 * (stress.sum() - stress[axis]);
 }
 
-double rate_limit(const Settings& s, double inertial_time, double mean_stress) {
-  const double quasi_static = s.inertial_number / inertial_time;
+double rate_limit(const Settings& s, double inertial_size, double mean_stress) {
+  const double quasi_static = s.inertial_number * std::sqrt(s.target) / inertial_size;
   const double unloaded = kUnloadedShare * s.target;
   const double raise = mean_stress < unloaded ? unloaded / std::max(mean_stress, 1e-12 * unloaded) : 1.0;
   return std::min(quasi_static * raise, s.max_rate);
+}
+
+double undrained_rate_limit(const Settings& s, double inertial_size, double largest_stress,
+                            double mean_stress) {
+  if (!(largest_stress > 0)) return s.max_rate;
+  const double at_largest = s.inertial_number * std::sqrt(largest_stress) / inertial_size;
+  const double share = mean_stress / largest_stress;
+  const double liquefied = std::sqrt(kUnloadedShare) * kUnloadedShare / std::max(share, 1e-12);
+  const double of_largest = share < kUnloadedShare ? std::min(liquefied, 1.0) : std::sqrt(share);
+  return std::min(at_largest * of_largest, s.max_rate);
+}
+
+double axial_rate_limit(const Settings& s, const State& state, const Measurement& m) {
+  return s.path == Path::kConstantVolume
+             ? undrained_rate_limit(s, m.inertial_size, state.largest_stress, mean_stress(m.stress))
+             : rate_limit(s, m.inertial_size, s.target);
+}
+
+std::int64_t control_interval(const Settings& s, std::int64_t longest, double steps_allowed) {
+  if (s.path == Path::kIsotropic || s.path == Path::kConstantVolume) return longest;
+  std::int64_t interval = longest;
+  for (std::int64_t parts = 1; parts <= std::min(longest, kMostFrequent); ++parts) {
+    if (longest % parts != 0) continue;
+    interval = longest / parts;
+    if (static_cast<double>(interval) <= steps_allowed) break;
+  }
+  return interval;
 }
 
 double axial_strain(const State& state, const Vec3& lengths, int axis) {

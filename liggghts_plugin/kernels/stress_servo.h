@@ -42,7 +42,7 @@ struct Measurement {
   Vec3 stress = Vec3::Zero();   ///< normal stresses of the box, Pa
   Vec3 lengths = Vec3::Zero();  ///< of the box, m
   double bulk_stiffness = 0;    ///< upper bound of the elastic bulk modulus (from the contacts), Pa
-  double inertial_time = 0;     ///< d √(ρ/p_target): inertial number per strain rate, s
+  double inertial_size = 0;     ///< d √ρ: inertial number per strain rate times √p', √(kg/m)
   double relaxation_time = 0;   ///< of the controller, s
   bool is_static = false;       ///< verdict of sample_static
 };
@@ -58,6 +58,7 @@ struct State {
   std::int64_t reversals = 0;
   double peak_deviator = 0;   ///< largest |q| while shearing, Pa
   double strain_at_peak = 0;  ///< axial strain there
+  double largest_stress = 0;  ///< largest p' of a constant-volume path, Pa
   Phase phase = Phase::kApproaching;
 };
 
@@ -69,10 +70,25 @@ double deviatoric_stress(const Vec3& stress, int axis);
 
 /// Largest logarithmic strain rate per axis at a mean stress, 1/s.
 ///
-/// I_max / (d √(ρ/p_target)) (eq 3.17 with the target in place of p'), raised in inverse proportion to p'
+/// I_max √p_target/(d √ρ) (eq 3.17 with the target in place of p'), raised in inverse proportion to p'
 /// while p' is below 1 % of the target, since a sample without a force network has no quasi-static state to
-/// keep; never above max_rate, and never below the limit of eq 3.17 unless max_rate itself is.
-double rate_limit(const Settings& settings, double inertial_time, double mean_stress);
+/// keep; never above max_rate, and never below the limit of eq 3.17 unless max_rate itself is. Any mean
+/// stress is valid, tension too.
+double rate_limit(const Settings& settings, double inertial_size, double mean_stress);
+
+/// The same at constant volume, where there is no target: eq 3.17 at the present p' while that is above 1 %
+/// of the largest of the path; below, where the sample liquefies and has no force network, raised in inverse
+/// proportion to p' up to the limit at the largest; max_rate while there has been no stress at all.
+double undrained_rate_limit(const Settings& settings, double inertial_size, double largest_stress,
+                            double mean_stress);
+
+/// Largest axial rate while shearing, 1/s.
+double axial_rate_limit(const Settings& settings, const State& state, const Measurement& measurement);
+
+/// Steps between control steps where boundaries follow a stress: the largest part of `longest` that is within
+/// `steps_allowed`, at least a tenth of `longest`. A sample loses stress in a collapse within its inertial
+/// time d √(ρ/p'); the controller's relaxation time may not be longer.
+std::int64_t control_interval(const Settings& settings, std::int64_t longest, double steps_allowed);
 
 /// Engineering strain along an axis since the reference, (l₀ − l)/l₀.
 double axial_strain(const State& state, const Vec3& lengths, int axis);

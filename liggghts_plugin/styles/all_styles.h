@@ -13,6 +13,7 @@
 #include "compute_stress_reduction.h"
 #include "compute_strong_contacts.h"
 #include "fix_contact_sampler.h"
+#include "fix_density_scaling.h"
 #include "fix_hydrodynamic_force.h"
 #include "fix_lubrication.h"
 #include "fix_stress_servo.h"

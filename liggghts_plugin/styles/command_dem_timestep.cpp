@@ -8,6 +8,7 @@
 #include "domain.h"
 #include "lammps.h"
 #include "modify.h"
+#include "pair_law.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/dem_time_step.h"
@@ -23,26 +24,42 @@ namespace {
 constexpr double kLeastStiffnessNumber = 1000;
 /// Share of the Rayleigh time that the thesis never exceeds (Appendix C: 0.19).
 constexpr double kLargestRayleighShare = 0.2;
+/// Share of the contact duration t = π √(m/2k) of two like grains that eq 3.4's 0.22 √(m/k) is, 0.0990,
+/// rounded.
+constexpr double kLargestDurationShare = 0.1;
 
-std::string describe(const mm::GrainMaterial& grain, double pressure, double step, double largest_diameter) {
-  const double oscillation = mm::oscillation_time(grain, pressure);
-  const double kappa = mm::stiffness_number(grain, pressure);
+std::string describe_grain(const suffuse::CriticalGrain& grain) {
+  std::string text = fmt::format("diameter {:.4g} m, {:.4g} kg/m3, type {}", 2 * grain.radius,
+                                 grain.true_density, grain.type);
+  const double factor = grain.inertial_density / grain.true_density;
+  if (factor > 1 + 1e-9) text += fmt::format(", inertia scaled by {:.4g}", factor);
+  return text;
+}
+
+std::string describe(const suffuse::PairLaw& law, const suffuse::CriticalGrain& grain, double pressure,
+                     double step, double largest_diameter) {
+  const double kappa = grain.stiffness_number;
   std::string text = fmt::format(
-      "DEM time step {:.4g} s: {:.3g} of the Rayleigh time {:.4g} s (smallest grain {:.4g} m)\n"
+      "DEM time step {:.4g} s: {:.3g} of the {} {:.4g} s ({}) of the grain that allows least ({})\n"
       "  {:.3g} of the limit 2 sqrt(m/K) (thesis eq 3.3), {:.3g} of 0.22 sqrt(m/K) (eq 3.4), K at {:.4g} Pa\n"
-      "  stiffness number kappa = (E*/p')^(2/3) = {:.4g}: typical overlap {:.3g} of a diameter ({:.3g} m for "
+      "  stiffness number kappa = {} = {:.4g}: typical overlap {:.3g} of a diameter ({:.3g} m for "
       "the largest grain)\n",
-      step, step / mm::rayleigh_time(grain), mm::rayleigh_time(grain), grain.diameter,
-      step / (mm::kSingleSpringFactor * oscillation), step / (mm::kPackingFactor * oscillation), pressure,
-      kappa, 1 / kappa, largest_diameter / kappa);
+      step, step / grain.time, law.time_name(), grain.time, law.name(), describe_grain(grain),
+      step / (mm::kSingleSpringFactor * grain.oscillation_time),
+      step / (mm::kPackingFactor * grain.oscillation_time), pressure,
+      law.is_linear() ? "k/(p' d)" : "(E*/p')^(2/3)", kappa, 1 / kappa, largest_diameter / kappa);
+  if (law.kind() == suffuse::PairLaw::Kind::other)
+    text +=
+        "WARNING: the Rayleigh time is the limit of Hertz's law; that of this pair law is not known here: "
+        "check the step by halving it\n";
   if (kappa < kLeastStiffnessNumber)
     text += fmt::format(
-        "WARNING: kappa < {:g}: contacts are softened (E = {:.3g} Pa); porosity, Z and alpha shift, see the "
-        "page on stiffness\n",
-        kLeastStiffnessNumber, grain.youngs_modulus);
-  if (step > kLargestRayleighShare * mm::rayleigh_time(grain))
-    text += fmt::format("WARNING: more than {:g} of the Rayleigh time: energy may drift\n",
-                        kLargestRayleighShare);
+        "WARNING: kappa < {:g}: contacts are softened; porosity, Z and alpha shift, see the page on "
+        "stiffness\n",
+        kLeastStiffnessNumber);
+  const double largest = law.is_linear() ? kLargestDurationShare : kLargestRayleighShare;
+  if (step > largest * (1 + 1e-9) * grain.time)
+    text += fmt::format("WARNING: more than {:g} of the {}: energy may drift\n", largest, law.time_name());
   return text;
 }
 
@@ -50,6 +67,7 @@ std::string describe(const mm::GrainMaterial& grain, double pressure, double ste
 
 void CommandDemTimestep::command(int narg, char** arg) {
   suffuse::ArgumentReader reader("dem_timestep", narg, arg, 0);
+  suffuse::require_si_units(lmp, "dem_timestep");
   double share = 0;
   const std::string mode = reader.word("rayleigh SHARE or check");
   if (mode == "rayleigh")
@@ -66,26 +84,21 @@ void CommandDemTimestep::command(int narg, char** arg) {
   if (domain->box_exist == 0)
     throw_user_error({"dem_timestep", "simulation box", "none", "exist", "insert the grains first"});
 
-  lmp->init();  // properties are looked up as a run does
-  const auto elastic = suffuse::elastic_constants(lmp);
+  lmp->init();  // properties are looked up as a run does, and masses are those that integration will use
   const auto grains = suffuse::grain_statistics(lmp, 1);
   if (grains.count == 0)
     throw_user_error(
         {"dem_timestep", "grains", "0", "exist", "insert them first (run 1 after fix insert/pack)"});
-  if (!elastic.known)
-    throw_user_error({"dem_timestep", "youngsModulus", "unknown", "be defined",
-                      "write fix property/global for youngsModulus and poissonsRatio"});
-  const mm::GrainMaterial smallest{elastic.youngs_modulus, elastic.poisson_ratio, grains.mean_density,
-                                   2 * grains.smallest_radius};
+  const auto law = suffuse::PairLaw::of(lmp, "dem_timestep");
+  const auto grain = suffuse::critical_grain(lmp, law, pressure);
   if (share > 0) {
-    update->dt = share * mm::rayleigh_time(smallest);
+    update->dt = share * grain.time;
     for (int i = 0; i < modify->nfix; ++i) modify->fix[i]->reset_dt();
   }
-  const double limit = mm::kSingleSpringFactor * mm::oscillation_time(smallest, pressure);
+  const double limit = mm::kSingleSpringFactor * grain.oscillation_time;
   if (update->dt > limit)
     throw_user_error({"dem_timestep", "time step", fmt::format("{:.4g} s", update->dt),
                       fmt::format("be below {:.4g} s (thesis eq 3.3)", limit),
                       "dem_timestep rayleigh 0.1 sets a safe one"});
-  const std::string text = describe(smallest, pressure, update->dt, 2 * grains.largest_radius);
-  suffuse::tell(lmp, text);
+  suffuse::tell(lmp, describe(law, grain, pressure, update->dt, 2 * grains.largest_radius));
 }

@@ -15,17 +15,15 @@
 #include "fix_contact_sampler.h"
 #include "modify.h"
 #include "output.h"
+#include "pair_law.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
-#include "suffuse/micromechanics/bulk_stiffness.h"
-#include "suffuse/micromechanics/dem_time_step.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 using suffuse::Vec3;
 namespace servo = suffuse::servo;
-namespace mm = suffuse::micromechanics;
 
 namespace {
 
@@ -38,10 +36,15 @@ constexpr double kStaticRayleighTimes = 20000 * 0.0994;
 constexpr int kSamplesPerWindow = 20;
 constexpr std::size_t kSignatureSize = 96;
 
+std::string who() {
+  return "fix stress/servo";
+}
+
 }  // namespace
 
 FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
-  suffuse::ArgumentReader reader("fix stress/servo", narg, arg, 3);
+  suffuse::ArgumentReader reader(who(), narg, arg, 3);
+  suffuse::require_si_units(lmp, reader.who());
   suffuse::require_periodic_box(lmp, reader.who());
   if (igroup != 0)
     throw_user_error(
@@ -76,24 +79,28 @@ int FixStressServo::setmask() {
 }
 
 void FixStressServo::init() {
-  const std::string who = "fix stress/servo";
-  suffuse::require_periodic_box(lmp, who);
-  suffuse::require_granular_pair_style(lmp, who);
-  suffuse::require_grains_in_group(lmp, who, igroup);
+  suffuse::require_periodic_box(lmp, who());
+  suffuse::require_granular_pair_style(lmp, who());
+  suffuse::require_grains_in_group(lmp, who(), igroup);
   int servos = 0;
   for (int i = 0; i < modify->nfix; ++i) {
     if (std::strcmp(modify->fix[i]->style, "deform") == 0)
-      throw_user_error({who, "fix", modify->fix[i]->id, "not deform the box as well",
+      throw_user_error({who(), "fix", modify->fix[i]->id, "not deform the box as well",
                         "unfix it: the servo moves the box"});
+    if (std::strncmp(modify->fix[i]->style, "wall/", 5) == 0)
+      throw_user_error({who(), "fix", modify->fix[i]->id,
+                        "not stand in the periodic box that the servo deforms",
+                        "unfix the wall: the stress is that of the whole box"});
     if (std::strcmp(modify->fix[i]->style, style) == 0) ++servos;
   }
   if (servos > 1)
     throw_user_error(
-        {who, "servos", std::to_string(servos), "be one at a time", "unfix the first before the next"});
+        {who(), "servos", std::to_string(servos), "be one at a time", "unfix the first before the next"});
 
   pressure_ = modify->compute[modify->find_compute(pressure_id_.data())];
   pressure_->addstep(update->ntimestep);  // so that the virial is there at setup
   const auto grains = suffuse::grain_statistics(lmp, groupbit);
+  grains_at_start_ = static_cast<double>(grains.count);
   density_ = grains.mean_density;
   solid_volume_ = grains.solid_volume;
   diameter_ = arguments_.diameter;
@@ -103,19 +110,15 @@ void FixStressServo::init() {
 }
 
 void FixStressServo::set_static_window() {
-  const auto elastic = suffuse::elastic_constants(lmp);
   if (arguments_.window_steps > 0) {
     window_ = static_cast<double>(arguments_.window_steps) * update->dt;
-  } else if (elastic.known) {
-    const auto grains = suffuse::grain_statistics(lmp, groupbit);
-    const double rayleigh = mm::rayleigh_time(
-        {elastic.youngs_modulus, elastic.poisson_ratio, density_, 2 * grains.smallest_radius});
-    window_ = kStaticRayleighTimes * rayleigh;
   } else {
-    window_ = 20000 * update->dt;
+    const auto law = suffuse::PairLaw::of(lmp, who());
+    window_ = kStaticRayleighTimes * suffuse::critical_grain(lmp, law, 1).time;
   }
   const double steps = window_ / update->dt / kSamplesPerWindow;
   network_every_ = std::max<bigint>(1, static_cast<bigint>(steps) / arguments_.every) * arguments_.every;
+  choose_interval();
 }
 
 void FixStressServo::reset_dt() {
@@ -126,22 +129,20 @@ void FixStressServo::setup(int) {
   sampler_->setup(0);
   if (pressure_->invoked_vector != update->ntimestep) measure_stress();
   measure_network();
-  if (!restored_ && state_.reference_lengths.isZero())
-    state_.reference_lengths = Vec3(domain->xprd, domain->yprd, domain->zprd);
-  restored_ = false;
   stop_step_ = -1;
-  last_progress_ = MPI_Wtime();
-  last_progress_step_ = update->ntimestep;
-  last_progress_stress_ = servo::mean_stress(stress_);
-  last_progress_strain_ = std::abs(
-      servo::axial_strain(state_, Vec3(domain->xprd, domain->yprd, domain->zprd), arguments_.settings.axis));
+  if (!restored_ && state_.reference_lengths.isZero()) {
+    state_.reference_lengths = lengths();
+    control();  // the box moves from the first step on
+  }
+  restored_ = false;
+  progress_.begin(standing(), MPI_Wtime());
   schedule();
 }
 
 /// Asks for the virial at the next control step and for contacts at the next sample of the network.
 void FixStressServo::schedule() {
   const bigint step = update->ntimestep;
-  pressure_->addstep((step / arguments_.every + 1) * arguments_.every);
+  pressure_->addstep((step / interval_ + 1) * interval_);
   sampler_->request((step / network_every_ + 1) * network_every_);
 }
 
@@ -152,40 +153,38 @@ void FixStressServo::measure_stress() {
 }
 
 void FixStressServo::measure_network() {
-  const auto& packing = sampler_->packing(groupbit);
-  const double exponent = sampler_->force_exponent();
-  // grains, contacts, Σ k_n l², Σ |f|, Σ |resultant|
-  std::array<double, 5> sums{};
-  sums[0] = static_cast<double>(packing.grains.size());
-  std::vector<double> normal_stiffness;
-  std::vector<Vec3> resultant(packing.grains.size(), Vec3::Zero());
-  for (const auto& contact : packing.contacts) {
-    const auto first = static_cast<std::size_t>(contact.first);
-    const double depth = mm::overlap(packing, contact);
-    normal_stiffness.push_back(exponent * std::abs(mm::normal_force(contact)) /
-                               depth);  // of f ~ depth^exponent
-    resultant[first] += contact.force;
-    if (mm::owns_second(contact)) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
-    if (!mm::is_counted(packing, contact)) continue;
-    sums[1] += 1;
-    sums[3] += contact.force.norm();
-  }
-  sums[2] = mm::stiffness_length_sum(packing, normal_stiffness);
-  for (const Vec3& net_force : resultant) sums[4] += net_force.norm();
-  suffuse::sum_over_ranks(lmp, sums);
-  coordination_ = 2 * sums[1] / sums[0];
-  bulk_stiffness_ = mm::voigt_bulk_modulus(sums[2], packing.volume);
-  unbalanced_ = sums[3] > 0 ? (sums[4] / sums[0]) / (sums[3] / sums[1]) : 0;
+  network_ = suffuse::measure_network(lmp, *sampler_, groupbit);
   is_static_ = servo::sample_static(static_window_, static_cast<double>(update->ntimestep) * update->dt,
-                                    servo::mean_stress(stress_), coordination_, window_,
+                                    servo::mean_stress(stress_), network_.coordination, window_,
                                     arguments_.settings.tolerance);
+}
+
+/// A divisor of `every`, so that every sample of the network is a control step.
+void FixStressServo::choose_interval() {
+  interval_ = arguments_.every;
+  if (arguments_.every_given) return;
+  const double inertial_time = inertial_size() / std::sqrt(std::max(arguments_.settings.target, 1.0));
+  interval_ = servo::control_interval(arguments_.settings, arguments_.every,
+                                      inertial_time / (kRelaxationIntervals * update->dt));
+}
+
+/// A lost sample may well have the target's stress. Grains that an insertion adds are taken up.
+void FixStressServo::check_sample() {
+  if (network_.grains > grains_at_start_) {
+    const auto grains = suffuse::grain_statistics(lmp, groupbit);
+    grains_at_start_ = static_cast<double>(grains.count);
+    solid_volume_ = grains.solid_volume;
+  }
+  suffuse::require_sound_sample(
+      who(), {stress_.allFinite() && shear_.allFinite(), void_ratio(), grains_at_start_, &network_});
 }
 
 void FixStressServo::end_of_step() {
   const bigint step = update->ntimestep;
-  if (step % arguments_.every == 0) {
+  if (step % interval_ == 0) {
     measure_stress();
     if (step % network_every_ == 0) measure_network();
+    check_sample();
     control();
     schedule();
     report_progress();
@@ -197,35 +196,29 @@ void FixStressServo::end_of_step() {
   }
 }
 
-double FixStressServo::inertial_time() const {
-  double reference = arguments_.settings.target;
-  if (arguments_.settings.path == servo::Path::kConstantVolume)
-    reference = std::max(servo::mean_stress(stress_), 1e-3 * bulk_stiffness_);
-  return diameter_ * std::sqrt(density_ / std::max(reference, 1.0));
-}
-
 void FixStressServo::control() {
   servo::Measurement m;
-  m.interval = static_cast<double>(arguments_.every) * update->dt;
+  m.interval = static_cast<double>(interval_) * update->dt;
   m.stress = stress_;
-  m.lengths = Vec3(domain->xprd, domain->yprd, domain->zprd);
-  m.bulk_stiffness = bulk_stiffness_;
-  m.inertial_time = inertial_time();
+  m.lengths = lengths();
+  m.bulk_stiffness = network_.bulk_stiffness;
+  m.inertial_size = inertial_size();
   m.relaxation_time = kRelaxationIntervals * m.interval;
   m.is_static = is_static_ && state_.phase == servo::Phase::kHolding;
   const servo::Phase before = state_.phase;
   state_ = servo::control(arguments_.settings, state_, m);
-  if (state_.phase == servo::Phase::kDone && before != servo::Phase::kDone) announce_stop();
-
-  const double quasi_static = arguments_.settings.inertial_number / m.inertial_time;
-  if (!rate_note_given_ && arguments_.settings.axial_rate > quasi_static &&
-      state_.phase == servo::Phase::kHolding) {
-    rate_note_given_ = true;
-    if (comm->me == 0 && screen != nullptr)
-      fmt::print(screen,
-                 "fix stress/servo {}: axial rate {:g} 1/s limited to {:.4g} 1/s by inertial_number {:g}\n",
-                 id, arguments_.settings.axial_rate, quasi_static, arguments_.settings.inertial_number);
+  if (state_.phase == servo::Phase::kDone && before != servo::Phase::kDone) {
+    suffuse::tell(lmp, suffuse::describe_end(id, arguments_.settings.stop, standing()));
+    announce_stop();
   }
+  if (rate_note_given_ || state_.phase != servo::Phase::kHolding) return;
+  const double quasi_static = servo::axial_rate_limit(arguments_.settings, state_, m);
+  if (arguments_.settings.axial_rate <= quasi_static) return;
+  rate_note_given_ = true;
+  suffuse::tell(
+      lmp,
+      fmt::format("fix stress/servo {}: axial rate {:g} 1/s limited to {:.4g} 1/s by inertial_number {:g}\n",
+                  id, arguments_.settings.axial_rate, quasi_static, arguments_.settings.inertial_number));
 }
 
 /// The run ends after the next step, so that its last thermo line can be announced to LIGGGHTS in time.
@@ -265,9 +258,32 @@ double FixStressServo::void_ratio() const {
 
 double FixStressServo::inertial_number() const {
   const double p = servo::mean_stress(stress_);
-  const double reference =
-      p > 0.01 * arguments_.settings.target && p > 0 ? p : std::max(arguments_.settings.target, 1.0);
-  return state_.rate.cwiseAbs().maxCoeff() * diameter_ * std::sqrt(density_ / reference);
+  const double target = std::max(arguments_.settings.target, state_.largest_stress);
+  const double reference = p > 0.01 * target && p > 0 ? p : std::max(target, 1.0);
+  return state_.rate.cwiseAbs().maxCoeff() * inertial_size() / std::sqrt(reference);
+}
+
+double FixStressServo::inertial_size() const {
+  return diameter_ * std::sqrt(density_);
+}
+
+Vec3 FixStressServo::lengths() const {
+  return {domain->xprd, domain->yprd, domain->zprd};
+}
+
+suffuse::ServoStanding FixStressServo::standing() const {
+  const double waited = static_cast<double>(update->ntimestep) * update->dt - static_window_.start;
+  return {update->ntimestep,
+          update->laststep,
+          state_.phase,
+          servo::mean_stress(stress_),
+          servo::deviatoric_stress(stress_, arguments_.settings.axis),
+          void_ratio(),
+          network_.coordination,
+          servo::axial_strain(state_, lengths(), arguments_.settings.axis),
+          inertial_number(),
+          network_.unbalanced,
+          (window_ - waited) / update->dt};
 }
 
 double FixStressServo::compute_scalar() {
@@ -275,7 +291,6 @@ double FixStressServo::compute_scalar() {
 }
 
 double FixStressServo::compute_vector(int n) {
-  const Vec3 lengths(domain->xprd, domain->yprd, domain->zprd);
   switch (n) {
     case 0:
       return servo::mean_stress(stress_);
@@ -284,9 +299,9 @@ double FixStressServo::compute_vector(int n) {
     case 2:
       return void_ratio();
     case 3:
-      return servo::axial_strain(state_, lengths, arguments_.settings.axis);
+      return servo::axial_strain(state_, lengths(), arguments_.settings.axis);
     case 4:
-      return servo::volumetric_strain(state_, lengths);
+      return servo::volumetric_strain(state_, lengths());
     case 5:
       return inertial_number();
     case 6:
@@ -296,7 +311,7 @@ double FixStressServo::compute_vector(int n) {
     case 9:
       return static_cast<double>(state_.phase);
     case 10:
-      return unbalanced_;
+      return network_.unbalanced;
     case 11:
       return 0.5 * static_cast<double>(state_.reversals);
     case 12:
@@ -314,56 +329,19 @@ double FixStressServo::compute_vector(int n) {
   }
 }
 
-/// Wall-clock minutes until the stop condition, extrapolated from the last progress line; negative if nothing
-/// tells.
-double FixStressServo::minutes_left(double strain, double since_last) const {
-  const double steps = static_cast<double>(update->ntimestep - last_progress_step_);
-  if (steps <= 0) return -1;
-  const double seconds_per_step = since_last / steps;
-  const double by_run = seconds_per_step * static_cast<double>(update->laststep - update->ntimestep);
-  double by_goal = by_run;
-  if (state_.phase == servo::Phase::kApproaching) {
-    const double gained = servo::mean_stress(stress_) - last_progress_stress_;
-    if (gained <= 0) return -1;
-    by_goal = since_last * (arguments_.settings.target - servo::mean_stress(stress_)) / gained;
-  } else if (arguments_.settings.stop == servo::Stop::kAxialStrain) {
-    const double gained = std::abs(strain) - last_progress_strain_;
-    if (gained <= 0) return -1;
-    by_goal = since_last * (arguments_.settings.stop_value - std::abs(strain)) / gained;
-  } else if (arguments_.settings.stop == servo::Stop::kStatic) {
-    const double waited = static_cast<double>(update->ntimestep) * update->dt - static_window_.start;
-    by_goal = seconds_per_step * (window_ - waited) / update->dt;
-  }
-  return std::max(0.0, std::min(by_goal, by_run)) / 60;
-}
-
 void FixStressServo::report_progress() {
-  if (arguments_.progress_every <= 0 || comm->me != 0 || screen == nullptr) return;
-  const double since_last = MPI_Wtime() - last_progress_;
-  if (since_last < arguments_.progress_every) return;
-
-  static constexpr std::array<const char*, 3> kPhases{"approaching", "holding", "done"};
-  const double strain =
-      servo::axial_strain(state_, Vec3(domain->xprd, domain->yprd, domain->zprd), arguments_.settings.axis);
-  const double minutes = minutes_left(strain, since_last);
-  fmt::print(
-      screen,
-      "fix stress/servo {}: step {}  {}  p' {:.4g} kPa  q {:.4g} kPa  e {:.4f}  Z {:.3f}  axial strain "
-      "{:.3f} %  I {:.2g}  left {}\n",
-      id, update->ntimestep, kPhases[static_cast<std::size_t>(state_.phase)],
-      servo::mean_stress(stress_) / 1e3, servo::deviatoric_stress(stress_, arguments_.settings.axis) / 1e3,
-      void_ratio(), coordination_, 100 * strain, inertial_number(),
-      minutes < 0 ? "unknown" : fmt::format("{:.1f} min", minutes));
+  if (comm->me != 0 || screen == nullptr) return;
+  const std::string line =
+      progress_.line(id, arguments_.settings, standing(), MPI_Wtime(), arguments_.progress_every);
+  if (line.empty()) return;
+  fmt::print(screen, "{}", line);
   std::fflush(screen);
-  last_progress_ += since_last;
-  last_progress_step_ = update->ntimestep;
-  last_progress_stress_ = servo::mean_stress(stress_);
-  last_progress_strain_ = std::abs(strain);
 }
 
-/// Names the path and its target: a restart file's state is taken up only by the fix that wrote it.
+/// Names the layout of the state, the path and its target: a restart file's state is taken up only by the fix
+/// that wrote it.
 std::string FixStressServo::signature() const {
-  return fmt::format("{} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
+  return fmt::format("2: {} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
                      arguments_.settings.target, arguments_.settings.axis, arguments_.settings.direction,
                      arguments_.settings.deviator_low, arguments_.settings.deviator_high);
 }
@@ -374,10 +352,12 @@ std::vector<double> FixStressServo::pack() const {
        {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
-  for (const double value : {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
-                             state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase),
-                             w.start, w.stress_low, w.stress_high, w.coordination_low, w.coordination_high,
-                             coordination_, bulk_stiffness_, unbalanced_, is_static_ ? 1.0 : 0.0})
+  for (const double value :
+       {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
+        state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase), w.start, w.stress_low,
+        w.stress_high, w.coordination_low, w.coordination_high, network_.coordination,
+        network_.bulk_stiffness, network_.unbalanced, network_.overlap, network_.grains,
+        state_.largest_stress, is_static_ ? 1.0 : 0.0})
     values.push_back(value);
   return values;
 }
@@ -397,7 +377,8 @@ void FixStressServo::unpack(const double* values) {
   state_.phase = static_cast<servo::Phase>(static_cast<int>(*values++));
   auto& w = static_window_;
   for (double* value : {&w.start, &w.stress_low, &w.stress_high, &w.coordination_low, &w.coordination_high,
-                        &coordination_, &bulk_stiffness_, &unbalanced_})
+                        &network_.coordination, &network_.bulk_stiffness, &network_.unbalanced,
+                        &network_.overlap, &network_.grains, &state_.largest_stress})
     *value = *values++;
   is_static_ = *values != 0;
 }
@@ -424,5 +405,6 @@ void FixStressServo::restart(char* buffer) {
   std::vector<double> values(pack().size());
   std::memcpy(values.data(), buffer + kSignatureSize, values.size() * sizeof(double));
   unpack(values.data());
+  if (state_.phase == servo::Phase::kDone) state_.phase = servo::Phase::kHolding;  // to an end further on
   restored_ = true;
 }

@@ -14,6 +14,8 @@ FixStyle(stress/servo, FixStressServo)
 
 #include "fix.h"
 #include "servo_arguments.h"
+#include "servo_network.h"
+#include "servo_progress.h"
 
 namespace LAMMPS_NS {
 
@@ -37,6 +39,9 @@ class FixStressServo : public Fix {
   void write_restart(FILE* file) override;
   void restart(char* buffer) override;
 
+  /// On its way to its target, which it has not reached before.
+  bool approaching() const { return state_.phase == suffuse::servo::Phase::kApproaching; }
+
  private:
   void set_static_window();
   void schedule();
@@ -46,8 +51,11 @@ class FixStressServo : public Fix {
   void deform();
   void announce_stop();
   void report_progress();
-  double minutes_left(double strain, double since_last) const;
-  double inertial_time() const;
+  void check_sample();
+  void choose_interval();
+  double inertial_size() const;
+  suffuse::ServoStanding standing() const;
+  suffuse::Vec3 lengths() const;
   double inertial_number() const;
   double void_ratio() const;
   std::string signature() const;
@@ -59,17 +67,14 @@ class FixStressServo : public Fix {
   suffuse::servo::StaticWindow static_window_;
   suffuse::Vec3 stress_ = suffuse::Vec3::Zero();  // normal stresses at the last control step, Pa
   suffuse::Vec3 shear_ = suffuse::Vec3::Zero();   // xy, xz, yz
-  double coordination_ = 0;
-  double bulk_stiffness_ = 0;
-  double unbalanced_ = 0;  // mean resultant force on a grain over mean contact force
+  suffuse::ServoNetwork network_;                 // at the last sample
   bool is_static_ = false;
 
+  bigint interval_ = 50;         // steps between control steps now
   bigint network_every_ = 1000;  // steps between samples of the contact network
   double window_ = 0;            // s
-  double last_progress_ = 0;     // wall clock, step, stress and strain of the last progress line
-  bigint last_progress_step_ = 0;
-  double last_progress_stress_ = 0;
-  double last_progress_strain_ = 0;
+  suffuse::ServoProgress progress_;
+  double grains_at_start_ = 0;
   double diameter_ = 0;
   double density_ = 0;
   double solid_volume_ = 0;

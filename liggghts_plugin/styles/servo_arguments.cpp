@@ -98,6 +98,7 @@ void read_option(ArgumentReader& reader, ServoArguments& arguments) {
   const std::string key = reader.word("keyword");
   if (key == "every") {
     arguments.every = reader.positive_integer("every");
+    arguments.every_given = true;
   } else if (key == "inertial_number") {
     arguments.settings.inertial_number = reader.positive("inertial_number");
   } else if (key == "diameter") {

@@ -12,7 +12,8 @@ enum class MeanDiameter { kMass, kNumber, kGiven };
 /// What the words of a `fix stress/servo` line say.
 struct ServoArguments {
   servo::Settings settings;
-  std::int64_t every = 50;        ///< steps between control steps
+  std::int64_t every = 50;        ///< steps between control steps, the most
+  bool every_given = false;       ///< then always so many
   std::int64_t window_steps = 0;  ///< of `static`; 0: from the Rayleigh time
   double progress_every = 30;     ///< s of wall clock between progress lines; 0: none
   MeanDiameter diameter_kind = MeanDiameter::kMass;

@@ -7,19 +7,19 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <numbers>
 
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
-#include "fix_property_global.h"
 #include "force.h"
 #include "group.h"
 #include "lammps.h"
-#include "modify.h"
 #include "pair_gran.h"
 #include "suffuse/common/error.h"
+#include "update.h"
 
 using LAMMPS_NS::LAMMPS;
 
@@ -117,29 +117,15 @@ void require_periodic_box(LAMMPS* lmp, std::string_view who) {
     throw_user_error({std::string(who), "box", "triclinic", "be orthogonal", "use a `region ... block`"});
 }
 
+void require_si_units(LAMMPS* lmp, std::string_view who) {
+  if (std::strcmp(lmp->update->unit_style, "si") == 0) return;
+  throw_user_error(
+      {std::string(who), "units", lmp->update->unit_style, "be si", "write `units si` and SI values"});
+}
+
 void sum_over_ranks(LAMMPS* lmp, std::span<double> values) {
   MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
                 lmp->world);
-}
-
-ElasticConstants elastic_constants(LAMMPS* lmp) {
-  const int types = lmp->atom->ntypes;
-  const auto find = [&](const char* name) {
-    return dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(
-        lmp->modify->find_fix_property(name, "property/global", "peratomtype", types, 0, "suffuse", false));
-  };
-  auto* modulus = find("youngsModulus");
-  auto* ratio = find("poissonsRatio");
-  ElasticConstants constants;
-  if (modulus == nullptr || ratio == nullptr) return constants;
-  constants.known = true;
-  for (int type = 0; type < types; ++type) {
-    const double candidate = modulus->compute_vector(type);
-    if (candidate <= constants.youngs_modulus) continue;
-    constants.youngs_modulus = candidate;
-    constants.poisson_ratio = ratio->compute_vector(type);
-  }
-  return constants;
 }
 
 GrainStatistics grain_statistics(LAMMPS* lmp, int groupbit) {
@@ -150,9 +136,10 @@ GrainStatistics grain_statistics(LAMMPS* lmp, int groupbit) {
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     const double radius = atom->radius[i];
-    const double mass = atom->rmass[i];
+    const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    const double mass = atom->density[i] * volume;
     sums[0] += 1;
-    sums[1] += 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    sums[1] += volume;
     sums[2] += mass;
     sums[3] += 2 * radius;
     sums[4] += mass * 2 * radius;

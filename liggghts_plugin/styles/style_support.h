@@ -61,18 +61,14 @@ LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS_NS::LAMMPS* lmp, std::st
 /// Throws unless the box is periodic on all faces and orthogonal.
 void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
+/// Throws unless the script has `units si`: our formulas and defaults are SI's.
+void require_si_units(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+
 /// Sum over ranks, in place.
 void sum_over_ranks(LAMMPS_NS::LAMMPS* lmp, std::span<double> values);
 
-/// Elastic constants of the contact model of one atom type, from `fix property/global`.
-struct ElasticConstants {
-  bool known = false;
-  double youngs_modulus = 0;  ///< Pa, of the stiffest type
-  double poisson_ratio = 0;   ///< of that type
-};
-ElasticConstants elastic_constants(LAMMPS_NS::LAMMPS* lmp);
-
-/// Sizes and masses of all grains of a group. Collective.
+/// Sizes and masses of all grains of a group, with their true densities: LIGGGHTS's `density`, which `fix
+/// density/scaling` leaves alone, and not its `rmass`. Collective.
 struct GrainStatistics {
   std::int64_t count = 0;
   double solid_volume = 0;          ///< m³

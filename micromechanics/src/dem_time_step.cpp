@@ -9,6 +9,10 @@ double effective_modulus(const GrainMaterial& m) {
   return m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio));
 }
 
+double grain_mass(const GrainMaterial& g) {
+  return g.density * std::numbers::pi / 6 * g.diameter * g.diameter * g.diameter;
+}
+
 double stiffness_number(const GrainMaterial& m, double mean_stress) {
   return std::pow(effective_modulus(m) / mean_stress, 2.0 / 3.0);
 }
@@ -26,8 +30,25 @@ double contact_stiffness(const GrainMaterial& m, double mean_stress) {
 }
 
 double oscillation_time(const GrainMaterial& m, double mean_stress) {
-  const double mass = m.density * std::numbers::pi / 6 * m.diameter * m.diameter * m.diameter;
-  return std::sqrt(mass / contact_stiffness(m, mean_stress));
+  return std::sqrt(grain_mass(m) / contact_stiffness(m, mean_stress));
+}
+
+double hooke_stiffness(const HookeContact& c) {
+  const double hertz = std::sqrt(c.effective_radius) * c.effective_modulus;
+  const double energy = c.effective_mass * c.characteristic_velocity * c.characteristic_velocity;
+  return 16. / 15 * hertz * std::pow(15. / 16 * energy / hertz, 0.2);
+}
+
+double contact_duration(double effective_mass, double stiffness) {
+  return std::numbers::pi * std::sqrt(effective_mass / stiffness);
+}
+
+double linear_stiffness_number(double stiffness, double diameter, double mean_stress) {
+  return stiffness / (mean_stress * diameter);
+}
+
+double density_factor(double time, double reference, double exponent) {
+  return time < reference ? std::pow(reference / time, 1 / exponent) : 1;
 }
 
 }  // namespace suffuse::micromechanics

@@ -33,6 +33,37 @@ def run(program, folder, name, start, servo, target, steps=400000, band=0.005):
     return data
 
 
+def collapsing(program, folder):
+    """Soft grains (kappa = 196) sheared at I = 5e-4: p' fell by 11 % in collapses when control came every 50 steps."""
+    soft = ("youngsModulus peratomtype 7e8", "youngsModulus peratomtype 5e8")
+    start = loose_sample(grains=500, friction=0.5).replace(*soft).replace("seed 32452867", "seed 32453021")
+    program.must_run(start + "dem_timestep rayleigh 0.2 pressure 1e5\nfix s all stress/servo isotropic 100e3 inertial_number 5e-4 until static\nrun 400000\n"
+                     "write_restart loose.restart\n", folder, "loose")
+    start = read_sample("loose.restart", friction=0.5).replace(*soft) + "dem_timestep rayleigh 0.2 pressure 1e5\n"
+    run(program, folder, "collapsing", start, "constant_p 100e3 inertial_number 5e-4 until axial_strain 0.04", 100e3, band=0.01)
+
+
+def liquefying(program, folder):
+    """Compressed with much friction, sheared undrained with little: p' falls to a thousandth and below zero."""
+    program.must_run(loose_sample(grains=200, friction=1.0) + "dem_timestep rayleigh 0.2 pressure 1e5\n"
+                     "fix s all stress/servo isotropic 100e3 inertial_number 1e-3 until static\nrun 400000\nwrite_restart metastable.restart\n", folder, "metastable")
+    screen = program.must_run(read_sample("metastable.restart", friction=0.05) + "dem_timestep rayleigh 0.2 pressure 1e5\n"
+                              "fix s all stress/servo constant_volume inertial_number 1e-3 until axial_strain 0.02\n" +
+                              SERIES.format(name="liquefying", steps=100000) + 'variable strain equal f_s[4]\nprint "strain ${strain}"\n', folder, "liquefying")
+    data = columns(folder / "liquefying.csv")
+    expect(all(math.isfinite(p) for p in data["p"]), "liquefying: not finite")
+    expect(min(data["p"]) < 100, f"liquefying: p' only fell to {min(data['p'])}")
+    strain = float(next(line for line in screen.splitlines() if line.startswith("strain ")).split()[1])
+    expect(abs(strain - 0.02) < 1e-3, f"liquefying: crawled to a strain of {strain}")
+
+
+def destroyed(program, folder):
+    """A step of eight Rayleigh times: the stress would come near its target in a sample that is none."""
+    code, screen = program.run(loose_sample(grains=200) + "timestep 2e-5\nfix s all stress/servo isotropic 100e3 inertial_number 2e-3 until target\nrun 20000\n", folder, "destroyed")
+    lines = [line for line in screen.splitlines() if line.startswith("suffuse: error: fix stress/servo:")]
+    expect(code == 1 and len(lines) == 1, f"a destroyed sample ended with code {code}\n{screen[-500:]}")
+
+
 def main():
     program = program_from_command_line(__doc__)
     with scratch() as scratch_folder:
@@ -48,6 +79,9 @@ def main():
         # From the end of a compression along z to an extension along x at the same mean stress.
         run(program, folder, "sheared", read_sample("base.restart"), "constant_p 100e3 axis z rate 1 until axial_strain 0.01", 100e3)
         run(program, folder, "turned", read_sample("sheared.restart"), "constant_p 100e3 axis x extension rate 1 until axial_strain 0.01", 100e3)
+        collapsing(program, folder)
+        liquefying(program, folder)
+        destroyed(program, folder)
         print(f"{program.ranks} ranks: the hard cases end at their targets")
 
 

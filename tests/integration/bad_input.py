@@ -35,6 +35,8 @@ CASES = [
     (SAMPLE + "group none empty\n".replace("empty", "type 2") + "fix s none stress/servo isotropic 200e3\n", ["group = none", "be all"]),
     (SAMPLE + SERVO + "isotropic 200e3\nfix t all stress/servo isotropic 200e3\nrun 10\n", ["servos = 2", "unfix"]),
     (SAMPLE + SERVO + "isotropic 200e3\nfix d all deform 1 x erate -1\nrun 10\n", ["fix = d", "deform"]),
+    (SAMPLE.replace("units si", "units cgs") + SERVO + "isotropic 200e3\n", ["fix stress/servo", "units = cgs", "be si"]),
+    (SAMPLE + "fix w all wall/gran model hertz tangential history primitive type 1 zplane 1e-3\n" + SERVO + "isotropic 200e3\nrun 10\n", ["fix = w", "unfix the wall"]),
     (SAMPLE + "delete_atoms group all\n" + SERVO + "isotropic 200e3\nrun 10\n", ["group = all", "contain grains"]),
     (SAMPLE.replace("coefficientFriction peratomtypepair 1 0.0", "coefficientFriction peratomtypepair 1 -0.3") + SERVO + "isotropic 200e3\nrun 1\n", ["coefficientFriction = -0.3", ">= 0"]),
     (SAMPLE + "dem_timestep rayleigh 0.1\n", ["dem_timestep", "pressure = missing"]),

@@ -20,8 +20,9 @@ variable q equal f_s[2]
 variable e equal f_s[3]
 variable strain equal f_s[4]
 variable rate equal f_s[7]
+variable axial equal f_s[9]
 variable phase equal f_s[10]
-fix series all print 100 "$(step),${{p}},${{q}},${{e}},${{strain}},${{rate}},${{phase}}" file {name}.csv screen no title "step,p,q,e,strain,rate,phase"
+fix series all print {interval} "$(step),${{p}},${{q}},${{e}},${{strain}},${{rate}},${{axial}},${{phase}}" file {name}.csv screen no title "step,p,q,e,strain,rate,axial,phase"
 fix_modify series
 dump grains all custom 100000 {name}.dump id x y z vx vy vz omegax omegay omegaz fx fy fz
 dump_modify grains format "%d %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g" sort id first no
@@ -36,10 +37,11 @@ def last_frame(path):
 
 def compare(program, folder, name, start, servo, first_part, second_part):
     """`start` is script text that sets the scene; the servo's words are the same on both sides."""
+    interval = 7 if first_part % 50 else 100
     fix = f"fix s all stress/servo {servo}\n"
-    program.must_run(start + fix + f"run {first_part}\nwrite_restart {name}.middle\n" + OUTPUT.format(name=f"{name}_through") +
+    program.must_run(start + fix + f"run {first_part}\nwrite_restart {name}.middle\n" + OUTPUT.format(name=f"{name}_through", interval=interval) +
                      f"run {second_part}\n" + FINAL, folder, f"{name}_through")
-    program.must_run(read_sample(f"{name}.middle", SAME_ORDER) + fix + OUTPUT.format(name=f"{name}_continued") +
+    program.must_run(read_sample(f"{name}.middle", SAME_ORDER) + fix + OUTPUT.format(name=f"{name}_continued", interval=interval) +
                      f"run {second_part}\n" + FINAL, folder, f"{name}_continued")
     through, continued = columns(folder / f"{name}_through.csv"), columns(folder / f"{name}_continued.csv")
     expect(len(through["p"]) > 10, f"{name}: too few samples")
@@ -59,6 +61,15 @@ def main():
         program.must_run(compression + "fix s all stress/servo isotropic 100e3 until target\nrun 400000\nwrite_restart sample.restart\n", folder, "prepare")
         through = compare(program, folder, "shear", read_sample("sample.restart", SAME_ORDER), "triaxial 100e3 axis z rate 1", 10000, 5000)
         expect(through["phase"][-1] == 1 and through["strain"][-1] > 1e-3, "the compared shearing did not shear")
+        # Between two control steps: the box goes on at the rates of before.
+        through = compare(program, folder, "between", read_sample("sample.restart", SAME_ORDER), "constant_p 100e3 axis z rate 1", 10037, 5000)
+        expect(min(through["axial"]) > 0.1, f"the axis stood still after the restart: {min(through['axial'])} 1/s")
+        # A path that had come to its end goes on to a later one.
+        shear = "fix s all stress/servo triaxial 100e3 axis z rate 1 until axial_strain {strain}\nrun 40000\n"
+        program.must_run(read_sample("sample.restart") + shear.format(strain=0.002) + "write_restart ended.restart\n", folder, "ended")
+        screen = program.must_run(read_sample("ended.restart") + shear.format(strain=0.004) + "variable strain equal f_s[4]\nprint \"strain ${strain}\"\n", folder, "further")
+        strain = float(next(line for line in screen.splitlines() if line.startswith("strain ")).split()[1])
+        expect(abs(strain - 0.004) < 1e-4, f"a continued path ended at {strain}")
         print(f"{program.ranks} ranks: continued runs agree with uninterrupted ones to the last digit")
 
 

@@ -1,4 +1,6 @@
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "hand_packings.h"
@@ -37,6 +39,33 @@ TEST_CASE("Rayleigh times match the reference values for three radii") {
   CHECK(rayleigh_time(quartz(0.0001333)) == Approx(1.419548e-07).epsilon(3e-4));  // radius rounded there
   CHECK(rayleigh_time(quartz(0.0005)) == Approx(5.324637e-07).epsilon(1e-6));
   CHECK(rayleigh_time(quartz(0.001)) == Approx(1.064927e-06).epsilon(1e-6));
+}
+
+TEST_CASE("a linear contact lasts half a period of its spring") {
+  // Two grains of 1 g: m* = 0.5 g; k = 1 kN/m: π √(5e-4/1e3)
+  CHECK(contact_duration(5e-4, 1e3) == Approx(std::numbers::pi * 7.0710678e-4).epsilon(1e-7));
+  // Eq 3.4's 0.22 √(m/k) is 0.0990 of it for two like grains.
+  CHECK(kPackingFactor * std::sqrt(1e-3 / 1e3) / contact_duration(5e-4, 1e3) == Approx(0.0990).epsilon(1e-3));
+}
+
+TEST_CASE("the spring of `model hooke` stores an impact's energy at Hertz's largest overlap") {
+  // Hertz: ½ m* V² = (8/15) E* √R* δ^2.5, so δ = (15 m* V²/(16 E* √R*))^0.4; ½ k δ² of LIGGGHTS's k is the
+  // same.
+  const HookeContact contact{3e8, 2.5e-4, 1e-6, 0.7};
+  const double energy = 0.5 * 1e-6 * 0.7 * 0.7;
+  const double overlap = std::pow(15. / 8 * energy / (3e8 * std::sqrt(2.5e-4)), 0.4);
+  CHECK(0.5 * hooke_stiffness(contact) * overlap * overlap == Approx(energy).epsilon(1e-12));
+}
+
+TEST_CASE("a scaled density lifts a grain's own limit to the reference, and no other grain's") {
+  // Rayleigh time ~ d √ρ: a third of the size needs nine times the density.
+  const double factor = density_factor(rayleigh_time(quartz(1e-4)), rayleigh_time(quartz(3e-4)), 0.5);
+  CHECK(factor == Approx(9));
+  GrainMaterial scaled = quartz(1e-4);
+  scaled.density *= factor;
+  CHECK(rayleigh_time(scaled) == Approx(rayleigh_time(quartz(3e-4))).epsilon(1e-12));
+  CHECK(density_factor(2e-7, 1e-7, 0.5) == 1);
+  CHECK(density_factor(1e-7, 1e-7, 0.4) == 1);
 }
 
 TEST_CASE("Hertz overlap and stiffness match the reference values") {

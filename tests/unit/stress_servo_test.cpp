@@ -41,7 +41,7 @@ struct Run {
   ModelSample sample;
   State state;
   double interval = 3e-6;
-  double inertial_time = 7e-5;
+  double inertial_size = 7e-5 * 447.2136;  // 7e-5 s at 200 kPa
 
   Measurement measure() const {
     Measurement m;
@@ -49,7 +49,7 @@ struct Run {
     m.stress = sample.stress();
     m.lengths = sample.lengths();
     m.bulk_stiffness = 1.5 * sample.bulk;  // an upper bound, as from the contacts
-    m.inertial_time = inertial_time;
+    m.inertial_size = inertial_size;
     m.relaxation_time = 10 * interval;
     return m;
   }
@@ -96,7 +96,7 @@ TEST_CASE("the isotropic servo reaches its target without overshoot and holds it
 
 TEST_CASE("strain rates stay below the inertial number's limit once the sample carries stress") {
   Run run = isotropic_run();
-  const double limit = run.settings.inertial_number / run.inertial_time;
+  const double limit = run.settings.inertial_number * std::sqrt(200e3) / run.inertial_size;
   for (int i = 0; i < 200000 && run.state.phase == Phase::kApproaching; ++i) {
     const double p = mean_stress(run.sample.stress());
     run.step();
@@ -108,10 +108,12 @@ TEST_CASE("strain rates stay below the inertial number's limit once the sample c
 TEST_CASE("an unloaded sample is compressed at max_rate, a loaded one at the quasi-static rate") {
   Settings settings;
   settings.target = 200e3;
-  CHECK(rate_limit(settings, 7e-5, 0.0) == settings.max_rate);
-  CHECK(rate_limit(settings, 7e-5, 100e3) == Approx(7.9e-5 / 7e-5));
+  const double size = 7e-5 * std::sqrt(200e3);
+  CHECK(rate_limit(settings, size, 0.0) == settings.max_rate);
+  CHECK(rate_limit(settings, size, -1e3) == settings.max_rate);  // a network in tension is none
+  CHECK(rate_limit(settings, size, 100e3) == Approx(7.9e-5 / 7e-5));
   // eq 3.17 at the thesis's grains: d 0.66 mm, 2650 kg/m³, 200 kPa gives 1.04 1/s
-  CHECK(rate_limit(settings, 0.66e-3 * std::sqrt(2650 / 200e3), 200e3) == Approx(1.04).epsilon(0.005));
+  CHECK(rate_limit(settings, 0.66e-3 * std::sqrt(2650), 200e3) == Approx(1.04).epsilon(0.005));
 }
 
 TEST_CASE("constant mean stress is held within 0.5 % while the sample dilates to 15 % axial strain") {
@@ -184,6 +186,32 @@ TEST_CASE("constant volume keeps the volume to round-off") {
   for (int i = 0; i < 10000; ++i) run.step();
   CHECK(run.sample.lengths().prod() == Approx(before).epsilon(1e-12));
   CHECK(axial_strain(run.state, run.sample.lengths(), 2) > 0.005);
+}
+
+TEST_CASE("a sample that liquefies at constant volume is sheared on, at a finite rate") {
+  Settings settings;
+  settings.path = Path::kConstantVolume;
+  const double size = 0.66e-3 * std::sqrt(2650), at_largest = 7.9e-5 * std::sqrt(100e3) / size;
+  CHECK(undrained_rate_limit(settings, size, 100e3, 100e3) == Approx(at_largest));
+  CHECK(undrained_rate_limit(settings, size, 100e3, 25e3) == Approx(at_largest / 2));
+  CHECK(undrained_rate_limit(settings, size, 100e3, 1e3) == Approx(at_largest / 10));
+  CHECK(undrained_rate_limit(settings, size, 100e3, 999.999) == Approx(at_largest / 10).epsilon(1e-5));
+  for (const double p : {100.0, 1.0, 0.0, -1.0, -1e4})
+    CHECK(undrained_rate_limit(settings, size, 100e3, p) == Approx(at_largest));
+  CHECK(undrained_rate_limit(settings, size, 0, 0) == settings.max_rate);
+}
+
+TEST_CASE(
+    "control steps come as often as a collapse needs them, and no more often than a tenth of the interval") {
+  Settings settings;
+  settings.path = Path::kConstantMean;
+  CHECK(control_interval(settings, 50, 119) == 50);
+  CHECK(control_interval(settings, 50, 49) == 25);
+  CHECK(control_interval(settings, 50, 18) == 10);
+  CHECK(control_interval(settings, 50, 0.1) == 5);
+  CHECK(control_interval(settings, 3, 1) == 1);
+  settings.path = Path::kIsotropic;
+  CHECK(control_interval(settings, 50, 1) == 50);
 }
 
 TEST_CASE("static needs a whole window in which neither p' nor Z moves") {
