@@ -32,6 +32,9 @@ constexpr double kFastGrains = 2;
 /// stay well below.
 constexpr double kLargestOverlap = 0.02;
 
+/// Share by which two accelerations may differ and be the same, rounded by hand.
+constexpr double kSameGravity = 2e-3;
+
 }  // namespace
 
 LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
@@ -107,6 +110,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
   for (const std::string& line : manifest(simulation_, grains, effects)) say("lbm run: " + line);
+  if (const auto note = weight_note()) say(*note);
   simulation_.map();
   refuse_overlaps(grains);
   simulation_.times() = {};
@@ -126,7 +130,10 @@ void LbmRun::advance(long step, bool is_last) {
   if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
   if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
   if (is_last) port_.end_after(simulation_.substeps());
-  simulation_.step();
+  bool loads_asked_for = is_last;
+  for (long ahead = step; ahead < step + simulation_.loads_span(); ++ahead)
+    loads_asked_for |= ahead == last_ || output_.due(ahead);
+  simulation_.step(loads_asked_for);
 }
 
 /// What is due after a step; true if the flow has become steady.
@@ -140,6 +147,7 @@ bool LbmRun::look(long step, const RunRequest& request) {
   if (request.steady && (step - first_) % steady_every == 0) {
     simulation_.map();
     steady = is_steady(*request.steady);
+    if (steady) simulation_.refresh_loads();  // the last step's refer to them
   }
   simulation_.times().output += MPI_Wtime() - before;
   return steady;
@@ -179,6 +187,21 @@ std::optional<std::string> LbmRun::drag_note() const {
       "water along so fast has too much drag (7 % at 5, 49 % at 30); `lbm collision trt_comoving` leaves "
       "less than half of it",
       speed, fastest_grain_);
+}
+
+/// Grains that weigh otherwise than the water: where that is meant to be their weight under water, buoyancy
+/// would be counted twice.
+std::optional<std::string> LbmRun::weight_note() const {
+  const Vec3& water = simulation_.settings().gravity;
+  if (water.isZero() || simulation_.settings().effects.buoyancy == Switch::off || !port_.anything_moves())
+    return std::nullopt;
+  const auto grains = port_.gravity_on_grains();
+  if (!grains || grains->isZero() || (*grains - water).norm() < kSameGravity * water.norm()) return std::nullopt;
+  return fmt::format(
+      "lbm run: note: `fix gravity` weighs grains with {:.4g} m/s^2, `lbm force gravity` the water with {:.4g}: "
+      "grains get the buoyancy of the water on top; a weight that is reduced by it counts it twice: give both "
+      "the same g, or write `lbm effect buoyancy off`",
+      grains->norm(), water.norm());
 }
 
 void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,

@@ -46,6 +46,7 @@ class LbmRun {
   std::string details() const;
   std::string table();
   std::optional<std::string> drag_note() const;
+  std::optional<std::string> weight_note() const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   const LbmSettings& settings_;

@@ -75,8 +75,18 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
   MPI_Barrier(lmp->world);
 }
 
+namespace {
+std::int64_t step_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  return Hdf5File(file, Hdf5File::Mode::read, lmp->world).integer_attribute("/", kGrainsStep);
+}
+}  // namespace
+
+bool grains_are_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  return step_of(lmp, file) == lmp->update->ntimestep;
+}
+
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
-  const auto saved = Hdf5File(file, Hdf5File::Mode::read, lmp->world).integer_attribute("/", kGrainsStep);
+  const std::int64_t saved = step_of(lmp, file);
   if (saved != lmp->update->ntimestep)
     throw_user_error(
         {"lbm restart", "read " + file, fmt::format("water of LIGGGHTS's step {}", saved),
@@ -178,6 +188,7 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
 
 std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const {
   if (!checkpoint_) return {};
+  simulation.refresh_loads();  // the grains' memory is saved with them
   write_checkpoint(lmp, simulation, references(), checkpoint_->file);
   return checkpoint_->file;
 }

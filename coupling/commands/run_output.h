@@ -65,6 +65,9 @@ class RunOutput {
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
                       const MonitorReferences& references, const std::string& file);
 
+/// Are the grains those of the step in which `file` was saved? Collective.
+bool grains_are_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file);
+
 /// A UserError if the grains are not those of the step in which `file` was saved. Collective.
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file);
 

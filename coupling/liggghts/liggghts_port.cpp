@@ -4,11 +4,16 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
 #include <string>
+#include <string_view>
 
 #include "atom.h"
 #include "domain.h"
 #include "fix.h"
+#include "fix_gravity.h"
 #include "integrate.h"
 #include "lammps.h"
 #include "modify.h"
@@ -157,6 +162,19 @@ bool LiggghtsPort::anything_moves() const {
   return false;
 }
 
+std::optional<Vec3> LiggghtsPort::gravity_on_grains() const {
+  Vec3 sum = Vec3::Zero();
+  bool found = false;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (auto* gravity = dynamic_cast<LAMMPS_NS::FixGravity*>(lmp_->modify->fix[i])) {
+      Vec3 own;
+      gravity->get_gravity(own.data());
+      sum += own;
+      found = true;
+    }
+  return found ? std::optional(sum) : std::nullopt;
+}
+
 LiggghtsPort::HeldInMotion LiggghtsPort::held_in_motion() const {
   int moved = 0;
   for (int i = 0; i < lmp_->modify->nfix; ++i)
@@ -182,8 +200,49 @@ bool LiggghtsPort::loads_restored() const {
   return mine[0] == 0 || mine[1] != 0;
 }
 
+constexpr std::int64_t kNoStep = std::numeric_limits<std::int64_t>::max();
+
+/// Styles whose work in a step is done anew in the next one, or that have none while grains stay where they
+/// are: forces, and what is kept with grains, meshes and lists. Others count, or change something.
+constexpr std::string_view kOfTheMoment[] = {
+    "freeze",         "setforce",        "aveforce",      "planeforce",    "lineforce",
+    "enforce2d",      "gravity",         "addforce",      "buoyancy",      "viscous",
+    "drag",           "wall/gran",       "property/atom", "property/global", "contacthistory",
+    "contacthistory/mesh", "neighlist/mesh", "mesh/surface", "mesh/surface/planar", "contact/sampler",
+    "hydrodynamic/force",  "lubrication",    "store/force"};
+
+/// Is there something that `run` would do in every step, although no fix integrates motion? Held grains that
+/// have a velocity all the same load their contacts in every step.
+bool LiggghtsPort::acts_in_every_step() const {
+  using namespace LAMMPS_NS::FixConst;
+  constexpr int in_a_step = INITIAL_INTEGRATE | POST_INTEGRATE | PRE_EXCHANGE | PRE_NEIGHBOR | PRE_FORCE |
+                            POST_FORCE | PRE_FINAL_INTEGRATE | FINAL_INTEGRATE | PRE_INITIAL_INTEGRATE;
+  for (int i = 0; i < lmp_->modify->nfix; ++i) {
+    const std::string_view style = lmp_->modify->fix[i]->style;
+    const bool of_the_moment = std::find(std::begin(kOfTheMoment), std::end(kOfTheMoment), style) !=
+                               std::end(kOfTheMoment);
+    if ((lmp_->modify->fmask[i] & in_a_step) != 0 && !of_the_moment) return true;
+  }
+  return held_in_motion().grains > 0;
+}
+
+/// The next step of held grains that has to be made: one of a fix that acts at its end, or with an output or
+/// values that somebody asks for.
+std::int64_t LiggghtsPort::next_step_that_counts() const {
+  const std::int64_t now = lmp_->update->ntimestep;
+  if (every_step_) return now + 1;
+  std::int64_t next = lmp_->output->next > now ? lmp_->output->next : kNoStep;
+  if (announced_step_ > now) next = std::min(next, announced_step_);
+  for (int i = 0; i < lmp_->modify->nfix; ++i) {
+    const std::int64_t every = lmp_->modify->fix[i]->nevery;
+    if ((lmp_->modify->fmask[i] & LAMMPS_NS::FixConst::END_OF_STEP) != 0 && every > 0)
+      next = std::min(next, (now / every + 1) * every);
+  }
+  return next;
+}
+
 bool LiggghtsPort::reads_loads(int substeps) {
-  return moves_ || lmp_->output->next <= lmp_->update->ntimestep + substeps;
+  return moves_ || next_step_that_counts() <= lmp_->update->ntimestep + substeps;
 }
 
 double LiggghtsPort::time_step() const {
@@ -191,6 +250,16 @@ double LiggghtsPort::time_step() const {
 }
 
 void LiggghtsPort::set_time_step(double step) {
+  constexpr double round_off = 1e-9;
+  if (std::abs(step - lmp_->update->dt) <= round_off * step) return;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (const std::string style = lmp_->modify->fix[i]->style; style == "move")
+      throw_user_error({"lbm run", "timestep", fmt::format("{:g} s", lmp_->update->dt),
+                        fmt::format("be {:.10g} s, a whole part of the fluid's step: `fix move` does not let it "
+                                    "be changed",
+                                    step),
+                        fmt::format("write `timestep {:.10g}` before `fix {} ... move`", step,
+                                    lmp_->modify->fix[i]->id)});
   lmp_->update->update_time();
   lmp_->update->dt = step;
   if (lmp_->update->integrate != nullptr) lmp_->update->integrate->reset_dt();
@@ -207,16 +276,23 @@ void LiggghtsPort::keep_memory() {
   load_.clear();
 }
 
-/// Grains that nothing moves leave nothing to integrate: then only the clock of LIGGGHTS goes on, and its
-/// steps run where an output is due.
+/// Grains that nothing moves leave nothing to integrate: then the clock of LIGGGHTS goes on alone to the steps
+/// that count.
 void LiggghtsPort::advance(int substeps) {
   keep_memory();
-  if (!reads_loads(substeps)) {
-    lmp_->update->ntimestep += substeps;
+  auto* update = lmp_->update;
+  const bigint last = update->ntimestep + substeps;
+  if (reads_loads(substeps)) fix_->loads_changed();
+  if (moves_ || every_step_) {
+    update->integrate->run(substeps);
     return;
   }
-  fix_->loads_changed();
-  lmp_->update->integrate->run(substeps);
+  for (std::int64_t next = next_step_that_counts(); next <= last; next = next_step_that_counts()) {
+    update->ntimestep = next - 1;
+    update->integrate->run(1);
+    if (LAMMPS_NS::SignalHandler::request_quit) return;  // a fix ends the run
+  }
+  update->ntimestep = last;
 }
 
 void LiggghtsPort::begin(std::int64_t steps) {
@@ -229,12 +305,14 @@ void LiggghtsPort::begin(std::int64_t steps) {
                       "stay while there is a fluid: it carries the loads",
                       "drop the `unfix`, or end the fluid with `lbm clear` before it"});
   moves_ = anything_moves();
+  announced_step_ = -1;
   update->nsteps = static_cast<int>(steps);
   update->firststep = update->beginstep = update->ntimestep;
   update->laststep = update->endstep = update->ntimestep + steps;
   update->whichflag = 1;
   EarlyStop::requested = false;
   lmp_->init();
+  every_step_ = !moves_ && acts_in_every_step();
   update->integrate->setup();
   lmp_->timer->init();
   const auto* domain = lmp_->domain;
@@ -270,7 +348,8 @@ int LiggghtsPort::stop_requested(int signal) const {
 }
 
 void LiggghtsPort::announce_values(int substeps) {
-  lmp_->modify->addstep_compute(lmp_->update->ntimestep + substeps);
+  announced_step_ = lmp_->update->ntimestep + substeps;
+  lmp_->modify->addstep_compute(announced_step_);
 }
 
 void LiggghtsPort::use_contacts() {
@@ -279,7 +358,8 @@ void LiggghtsPort::use_contacts() {
 }
 
 void LiggghtsPort::announce_contacts(int substeps) {
-  LAMMPS_NS::FixContactSampler::of(lmp_).request(lmp_->update->ntimestep + substeps, true);
+  announced_step_ = lmp_->update->ntimestep + substeps;
+  LAMMPS_NS::FixContactSampler::of(lmp_).request(announced_step_, true);
 }
 
 const micromechanics::Packing& LiggghtsPort::contacts() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "suffuse/coupling/particle_port.h"
@@ -48,6 +49,9 @@ class LiggghtsPort final : public ParticlePort {
   /// Does any fix integrate the motion of grains?
   bool anything_moves() const;
 
+  /// What the script's `fix gravity` gives to grains, m/s^2; none without one. Within a run.
+  std::optional<Vec3> gravity_on_grains() const;
+
   /// Grains of the fix's group that no fix moves and that have a velocity all the same: the fluid feels it.
   struct HeldInMotion {
     std::int64_t grains = 0;
@@ -81,7 +85,8 @@ class LiggghtsPort final : public ParticlePort {
   /// Which faces of LIGGGHTS's box are periodic: those across x, y, z.
   std::array<bool, 3> periodic() const;
 
-  /// Sets LIGGGHTS's time step, s.
+  /// Sets LIGGGHTS's time step, s; one that differs by round-off alone stays as it is. A UserError where a fix
+  /// of the script does not let it change.
   void set_time_step(double step);
 
   /// A UserError where the box is not the one that the fluid was made for, or grains cannot be mapped:
@@ -126,12 +131,16 @@ class LiggghtsPort final : public ParticlePort {
 
  private:
   void keep_memory();
+  bool acts_in_every_step() const;
+  std::int64_t next_step_that_counts() const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::FixHydrodynamicForce* fix_ = nullptr;
   bool running_ = false;
   bool made_fix_ = false;
   bool moves_ = false;
+  bool every_step_ = false;          ///< some fix does more in every step than what the next one does again
+  std::int64_t announced_step_ = -1; ///< whose values somebody will ask for
   bool all_grains_ = true;  ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first

@@ -225,7 +225,10 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
 void CoupledSimulation::hand_over(const GrainArrays& grains) {
   LoadRule rule;
   rule.fluid_density = units_.density();
-  rule.time_step = units_.time_step();
+  // The memory may hold loads of another fluid: those of no step of this one are not referred to.
+  const bool follows = loads_step_ != kNever;
+  const long passed = follows ? std::max(1L, fluid_.steps() - loads_step_) : 1;
+  rule.time_step = static_cast<double>(passed) * units_.time_step();
   rule.spacing = units_.spacing();
   if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
   rule.average = settings_.average_force;
@@ -241,7 +244,7 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     double* h = memory.history + kHistoryLength * n;
     const auto past = [h](int place) { return Vec3(Eigen::Map<const Vec3>(h + place)); };
     const auto keep = [h](int place, const Vec3& value) { Eigen::Map<Vec3>(h + place) = value; };
-    const GrainHistory before{h[history::known] != 0,
+    const GrainHistory before{follows && h[history::known] != 0,
                               past(history::velocity),
                               past(history::angular_velocity),
                               {past(history::surface_force), past(history::surface_torque)},
@@ -268,7 +271,7 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     keep(history::spin_lead, lead.spin);
     h[history::known] = 1;
   }
-  loads_are_current_ = true;
+  loads_step_ = fluid_.steps();
 }
 
 /// Before a discrete-element code is given what it would choke on.
@@ -300,9 +303,7 @@ double CoupledSimulation::overlap() const {
 }
 
 void CoupledSimulation::refresh_loads() {
-  int stale = loads_are_current_ ? 0 : 1, any = 0;
-  MPI_Allreduce(&stale, &any, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
-  if (any == 0) return;
+  if (loads_step_ == fluid_.steps() || !stepped_) return;
   {
     const Stopwatch watch(times_.exchange);
     mapping_.sum(units_.relaxation_time());
@@ -332,11 +333,11 @@ void CoupledSimulation::step_fluid(bool loads_wanted) {
   times_.fluid += MPI_Wtime() - start - (times_.mapping + times_.exchange - before);
 }
 
-void CoupledSimulation::step() {
+void CoupledSimulation::step(bool loads_asked_for) {
   place_spheres();
-  const bool loads_wanted = grains_.reads_loads(substeps_);
+  const bool loads_wanted = loads_asked_for || grains_.reads_loads(loads_span() * substeps_);
   step_fluid(loads_wanted);
-  loads_are_current_ = false;
+  stepped_ = true;
   if (loads_wanted) hand_loads_over();
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);

@@ -28,7 +28,7 @@ FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg)
     throw_user_error({"fix hydrodynamic/force", "atom_style", atom->atom_style, "be spheres",
                       "write `atom_style granular`"});
   for (int i = 0; i < modify->nfix; ++i)
-    if (std::string(modify->fix[i]->style) == style)
+    if (modify->fix[i] != nullptr && std::string(modify->fix[i]->style) == style)  // null: being replaced
       throw_user_error({"fix hydrodynamic/force", "fix", id,
                         std::string("be the only one of its style (there is ") + modify->fix[i]->id + ")",
                         "name one group that holds all grains in the fluid"});
@@ -58,6 +58,16 @@ FixHydrodynamicForce::~FixHydrodynamicForce() {
 
 int FixHydrodynamicForce::setmask() {
   return FixConst::POST_FORCE | FixConst::PRE_FINAL_INTEGRATE;
+}
+
+void FixHydrodynamicForce::post_create() {
+  suffuse::act_before_constraints(lmp, this);
+}
+
+void FixHydrodynamicForce::init() {
+  constraints_.clear();
+  for (int i = 0; i < modify->nfix; ++i)
+    if (suffuse::constrains_forces(modify->fix[i]->style)) constraints_.push_back(modify->fix[i]);
 }
 
 void FixHydrodynamicForce::setup(int flag) {
@@ -116,6 +126,10 @@ void FixHydrodynamicForce::pre_final_integrate() {
 
 void FixHydrodynamicForce::loads_changed() {
   const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size()));
+  if (!constraints_.empty()) {
+    change_constrained(owned);
+    return;
+  }
   for (int i = 0; i < owned; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     Addition& ours = applied_[static_cast<std::size_t>(i)];
@@ -127,6 +141,49 @@ void FixHydrodynamicForce::loads_changed() {
     }
     ours = now;
   }
+}
+
+/// Constraints C are affine in the forces: C(f + change) = C(f) + C(change) - C(0), and C(f) is what is there.
+void FixHydrodynamicForce::change_constrained(int owned) {
+  const std::size_t values = 6 * static_cast<std::size_t>(owned);
+  std::vector<double> there(values), change(values, 0.);
+  const auto each = [&](const auto& visit) {
+    for (int i = 0; i < owned; ++i)
+      for (int a = 0; a < 3; ++a) {
+        const std::size_t at = 6 * static_cast<std::size_t>(i) + static_cast<std::size_t>(a);
+        visit(i, a, atom->f[i][a], atom->torque[i][a], at);
+      }
+  };
+  const auto constrain = [this] {
+    for (Fix* fix : constraints_) fix->post_force(0);
+  };
+  const auto grouped = [this](int i) { return (atom->mask[i] & groupbit) != 0; };
+  each([&](int i, int a, double& f, double& torque, std::size_t at) {
+    there[at] = f;
+    there[at + 3] = torque;
+    f = torque = 0;
+    if (!grouped(i)) return;
+    const Addition& ours = applied_[static_cast<std::size_t>(i)];
+    there[at] /= ours.force_share;
+    there[at + 3] /= ours.torque_share;
+    const Addition now = addition(i);
+    f = now.force[a] - ours.force[a];
+    torque = now.torque[a] - ours.torque[a];
+  });
+  constrain();
+  each([&](int, int, double& f, double& torque, std::size_t at) {
+    change[at] = f;
+    change[at + 3] = torque;
+    f = torque = 0;
+  });
+  constrain();
+  each([&](int i, int, double& f, double& torque, std::size_t at) {
+    const Addition now = grouped(i) ? addition(i) : Addition{{}, {}, 1, 1};
+    f = now.force_share * (there[at] + (change[at] - f));
+    torque = now.torque_share * (there[at + 3] + (change[at + 3] - torque));
+  });
+  for (int i = 0; i < owned; ++i)
+    if (grouped(i)) applied_[static_cast<std::size_t>(i)] = addition(i);
 }
 
 double* FixHydrodynamicForce::load() {

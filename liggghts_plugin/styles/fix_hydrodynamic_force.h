@@ -19,7 +19,9 @@ namespace LAMMPS_NS {
 /// them in every step until they are given anew. Reference page: docs/reference/fix_hydrodynamic_force.md.
 ///
 /// Values go with a grain when it changes rank and into restart files. Whoever computes the loads writes them
-/// with `load` and `history`, and calls `loads_changed` before the next step.
+/// with `load` and `history`, and calls `loads_changed` before the next step. Fixes of the script that set
+/// forces (`freeze`, `setforce`, ...) act after it, whatever the order of their lines: what they hold stays
+/// held.
 class FixHydrodynamicForce : public Fix {
  public:
   static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
@@ -31,6 +33,8 @@ class FixHydrodynamicForce : public Fix {
   ~FixHydrodynamicForce() override;
 
   int setmask() override;
+  void post_create() override;
+  void init() override;
   void setup(int) override;
   void post_force(int) override;
   void pre_final_integrate() override;
@@ -78,8 +82,10 @@ class FixHydrodynamicForce : public Fix {
   };
   Addition addition(int i) const;
   void refresh_additions();
+  void change_constrained(int owned);
 
   double** history_ = nullptr;
+  std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
   bool stale_ = true;              // grains have changed places since then
   bool restored_ = false;

@@ -151,6 +151,10 @@ int FixLubrication::setmask() {
   return FixConst::POST_FORCE;
 }
 
+void FixLubrication::post_create() {
+  suffuse::act_before_constraints(lmp, this);
+}
+
 void FixLubrication::init() {
   pair_ = &suffuse::require_granular_pair_style(lmp, kWho);
   // These lists leave the distance factor out.

@@ -39,6 +39,7 @@ class FixLubrication : public Fix {
                                         const std::vector<Plane>& walls = {});
 
   int setmask() override;
+  void post_create() override;
   void init() override;
   void setup(int) override;
   void post_force(int) override;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,8 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix.h"
+#include "fix_property_global.h"
 #include "force.h"
 #include "group.h"
 #include "lammps.h"
@@ -88,6 +91,36 @@ void tell(LAMMPS* lmp, std::string_view text) {
     fmt::print(to, "{}", text);
     std::fflush(to);
   }
+}
+
+bool constrains_forces(std::string_view style) {
+  constexpr std::array<std::string_view, 6> styles{"freeze",     "setforce",  "aveforce",
+                                                   "planeforce", "lineforce", "enforce2d"};
+  return std::find(styles.begin(), styles.end(), style) != styles.end();
+}
+
+void act_before_constraints(LAMMPS* lmp, const LAMMPS_NS::Fix* fix) {
+  LAMMPS_NS::Modify* modify = lmp->modify;
+  int first = 0, from = 0;
+  while (first < modify->nfix && !constrains_forces(modify->fix[first]->style)) ++first;
+  while (from < modify->nfix && modify->fix[from] != fix) ++from;
+  if (first >= from) return;
+  std::rotate(modify->fix + first, modify->fix + from, modify->fix + from + 1);
+  std::rotate(modify->fmask + first, modify->fmask + from, modify->fmask + from + 1);
+  // Atom knows the fixes that keep values of grains by their places, and restart files have them in the order
+  // of these.
+  LAMMPS_NS::Atom* atom = lmp->atom;
+  const auto renumber = [&](int* places, int count) {
+    for (int n = 0; n < count; ++n)
+      if (places[n] == from)
+        places[n] = first;
+      else if (places[n] >= first && places[n] < from)
+        ++places[n];
+    std::sort(places, places + count);
+  };
+  renumber(atom->extra_grow, atom->nextra_grow);
+  renumber(atom->extra_restart, atom->nextra_restart);
+  renumber(atom->extra_border, atom->nextra_border);
 }
 
 void require_grains_in_group(LAMMPS* lmp, std::string_view who, int igroup) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 namespace LAMMPS_NS {
+class Fix;
 class LAMMPS;
 class PairGran;
 }  // namespace LAMMPS_NS
@@ -51,6 +52,14 @@ class ArgumentReader {
 
 /// Text for the person who runs the script, as it stands: on the screen and in the log, once for all ranks.
 void tell(LAMMPS_NS::LAMMPS* lmp, std::string_view text);
+
+/// Does a fix of this style set forces, or hold them to a plane or a mean, rather than add to them? `freeze`,
+/// `setforce` and their like: they must act after all that add.
+bool constrains_forces(std::string_view style);
+
+/// Moves a fix of ours that adds forces before the first fix that constrains them, wherever the script has
+/// their lines. Between runs.
+void act_before_constraints(LAMMPS_NS::LAMMPS* lmp, const LAMMPS_NS::Fix* fix);
 
 /// Throws unless the group has grains on some rank. Collective.
 void require_grains_in_group(LAMMPS_NS::LAMMPS* lmp, std::string_view who, int igroup);

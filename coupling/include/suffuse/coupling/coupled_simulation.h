@@ -37,15 +37,25 @@ class CoupledSimulation {
                     const Vec3& origin, ParticlePort& grains);
 
   /// One fluid step and the DEM steps that belong to it. A UserError if the fluid's forces are no numbers any
-  /// more. Collective.
-  void step();
+  /// more. `loads_asked_for`: somebody will ask for loads after one of the next loads_span() steps, this one
+  /// among them. Collective.
+  void step(bool loads_asked_for = false);
+
+  /// Fluid steps, the one of the question among them, whose sums a load is made of: it holds the change of
+  /// momentum over a step, and with `average_force` is the mean of two loads.
+  int loads_span() const { return settings_.average_force ? 3 : 2; }
 
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
   void map();
 
   /// Brings the loads in the port's memory up to date where `step` left them because nothing moves the
-  /// grains. Collective.
+  /// grains. The same values however often this is called if the steps before were told (`loads_asked_for`);
+  /// otherwise rates of change are means over the time since the last loads. Collective.
   void refresh_loads();
+
+  /// After a saved state has been read: loads of the next step refer to those that the port's memory has, if
+  /// it is of the same step. Without this call, to nothing.
+  void continue_loads() { loads_step_ = fluid_.steps(); }
 
   lbm::Fluid& fluid() { return fluid_; }
   const lbm::Fluid& fluid() const { return fluid_; }
@@ -110,7 +120,8 @@ class CoupledSimulation {
   static constexpr long kNever = -1, kWhoeverIsThere = -2;
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
-  bool loads_are_current_ = true;
+  bool stepped_ = false;      ///< since this simulation began
+  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;
   std::vector<double> force_, torque_, lead_, spin_lead_;

@@ -56,7 +56,8 @@ class ParticlePort {
   virtual GrainMemory memory() = 0;
 
   /// Will anything read the loads in the next so many DEM steps: something that moves a grain on any rank, or
-  /// an output? Otherwise they are computed when asked for.
+  /// an output? They are formed in the fluid steps before as well, whose momentum they refer to. Otherwise
+  /// they are computed when asked for. The same on all ranks.
   virtual bool reads_loads(int substeps) = 0;
 
   /// Grains' step, s.
