@@ -2,8 +2,8 @@
 
 /// The contact laws of LIGGGHTS's granular pair style that the vectorised pass computes.
 ///
-/// Formulas and names of coefficients are those of LIGGGHTS 3.8 (`pair_style gran model ...`, its documentation of
-/// the models, and `dippel1996` for history); all quantities in SI.
+/// Formulas and names of coefficients are those of LIGGGHTS 3.8 (`pair_style gran model ...` and its documentation of
+/// the models); all quantities in SI.
 
 namespace suffuse::grains {
 
