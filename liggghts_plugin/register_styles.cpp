@@ -14,6 +14,7 @@
 #include "neighbor.h"
 #include "pair.h"
 #include "replacements/fix_contact_history_vector.h"
+#include "replacements/fix_nve_sphere_vector.h"
 #include "replacements/neighbor_by_size.h"
 #include "replacements/pair_gran_vector.h"
 #include "run.h"
@@ -115,6 +116,7 @@ void install_grain_loop(LAMMPS* lmp) {
   lmp->neighbor = new NeighborBySize(lmp);
   (*lmp->force->pair_map)["gran"] = [](LAMMPS* l) -> Pair* { return new PairGranVector(l); };
   (*(lmp->modify->*member_of(FixMap{})))["contacthistory"] = &make_fix<FixContactHistoryVector>;
+  (*(lmp->modify->*member_of(FixMap{})))["nve/sphere"] = &make_fix<FixNVESphereVector>;
 }
 
 }  // namespace
