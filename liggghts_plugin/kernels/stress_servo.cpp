@@ -6,7 +6,7 @@
 namespace suffuse::servo {
 namespace {
 
-/// Below this share of the target stress the sample counts as carrying none.
+/// Below this share of the largest stress of an undrained path the sample counts as carrying none.
 constexpr double kUnloadedShare = 0.01;
 /// Slow parts of the law take this many controller time constants: integral action, start of shearing.
 constexpr double kSlowness = 10;
@@ -171,7 +171,7 @@ double deviatoric_stress(const Vec3& stress, int axis) {
 
 double rate_limit(const Settings& s, double inertial_size, double mean_stress) {
   const double quasi_static = s.inertial_number * std::sqrt(s.target) / inertial_size;
-  const double unloaded = kUnloadedShare * s.target;
+  const double unloaded = s.approach_share * s.target;
   const double raise = mean_stress < unloaded ? unloaded / std::max(mean_stress, 1e-12 * unloaded) : 1.0;
   return std::min(quasi_static * raise, s.max_rate);
 }
@@ -236,21 +236,21 @@ State control(const Settings& s, const State& before, const Measurement& m) {
   return state;
 }
 
-bool sample_static(StaticWindow& w, double time, double mean_stress, double coordination, double duration,
-                   double tolerance) {
+bool sample_static(StaticWindow& w, const Settings& settings, const StaticSample& sample, double duration) {
   const bool started = w.start >= 0;
   if (started) {
-    w.stress_low = std::min(w.stress_low, mean_stress);
-    w.stress_high = std::max(w.stress_high, mean_stress);
-    w.coordination_low = std::min(w.coordination_low, coordination);
-    w.coordination_high = std::max(w.coordination_high, coordination);
+    w.stress_low = std::min(w.stress_low, sample.mean_stress);
+    w.stress_high = std::max(w.stress_high, sample.mean_stress);
+    w.coordination_low = std::min(w.coordination_low, sample.coordination);
+    w.coordination_high = std::max(w.coordination_high, sample.coordination);
   }
-  const bool constant =
-      started && mean_stress > 0 && coordination > 0 &&
-      w.stress_high - w.stress_low <= tolerance * (w.stress_high + w.stress_low) &&
-      w.coordination_high - w.coordination_low <= tolerance * (w.coordination_high + w.coordination_low);
-  if (constant) return time - w.start >= duration;
-  w = {time, mean_stress, mean_stress, coordination, coordination};
+  const auto kept = [&](double low, double high) { return high - low <= settings.tolerance * (high + low); };
+  const bool balanced = settings.unbalanced > 0 ? sample.unbalanced <= settings.unbalanced
+                                                : kept(w.coordination_low, w.coordination_high);
+  const bool constant = started && sample.mean_stress > 0 && sample.coordination > 0 && balanced &&
+                        kept(w.stress_low, w.stress_high);
+  if (constant) return sample.time - w.start >= duration;
+  w = {sample.time, sample.mean_stress, sample.mean_stress, sample.coordination, sample.coordination};
   return false;
 }
 

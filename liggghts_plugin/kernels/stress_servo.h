@@ -29,9 +29,11 @@ struct Settings {
   double deviator_low = 0;  ///< cyclic bounds of q = σ_axial − σ_lateral, Pa
   double deviator_high = 0;
   double inertial_number =
-      7.9e-5;                ///< limit of eq 3.17 at the target stress (thesis, after Perez et al. 2016)
-  double max_rate = 50;      ///< 1/s, while the sample carries no stress
-  double tolerance = 0.005;  ///< relative, of the controlled stress, and of p' and Z for `static`
+      7.9e-5;                    ///< limit of eq 3.17 at the target stress (thesis, after Perez et al. 2016)
+  double max_rate = 50;          ///< 1/s, while the sample carries no stress
+  double approach_share = 0.01;  ///< of the target, up to which p' may rise faster than inertial_number says
+  double tolerance = 0.005;      ///< relative, of the controlled stress, and of p' and Z for `static`
+  double unbalanced = 0.01;      ///< largest unbalanced-force ratio of a static sample; 0: Z decides instead
   Stop stop = Stop::kNone;
   double stop_value = 0;  ///< axial strain, or number of cycles
 };
@@ -87,7 +89,8 @@ double axial_rate_limit(const Settings& settings, const State& state, const Meas
 
 /// Steps between control steps where boundaries follow a stress: the largest part of `longest` that is within
 /// `steps_allowed`, at least a tenth of `longest`. A sample loses stress in a collapse within its inertial
-/// time d √(ρ/p'); the controller's relaxation time may not be longer.
+/// time d √(ρ/p'); the controller's relaxation time has to be
+/// shorter.
 std::int64_t control_interval(const Settings& settings, std::int64_t longest, double steps_allowed);
 
 /// Engineering strain along an axis since the reference, (l₀ − l)/l₀.
@@ -110,10 +113,19 @@ struct StaticWindow {
   double coordination_low = 0, coordination_high = 0;
 };
 
-/// One sample for `static`: true once p' and Z have both varied by no more than ± tolerance (relative) for
-/// `duration` seconds (thesis, chapter 4: constant over 20,000 steps). A larger change starts the window
-/// anew.
-bool sample_static(StaticWindow& window, double time, double mean_stress, double coordination,
-                   double duration, double tolerance);
+/// What decides whether a sample is static.
+struct StaticSample {
+  double time = 0;          ///< s
+  double mean_stress = 0;   ///< Pa
+  double coordination = 0;  ///< Z
+  double unbalanced = 0;    ///< mean resultant force on a grain over mean contact force
+};
+
+/// One sample for `static`: true once p' has varied by no more than ± tolerance (relative) for `duration`
+/// seconds, with the unbalanced-force ratio within settings.unbalanced at every sample; where that is 0, once
+/// p' and Z have both kept to the tolerance (thesis, chapter 4: constant over 20,000 steps). A larger change
+/// starts the window anew.
+bool sample_static(StaticWindow& window, const Settings& settings, const StaticSample& sample,
+                   double duration);
 
 }  // namespace suffuse::servo

@@ -30,9 +30,14 @@ namespace {
 /// Controller time constant in control intervals: long against the local rearrangement that follows a strain
 /// step.
 constexpr double kRelaxationIntervals = 10;
+/// Relaxation time of lateral stresses over the sample's inertial time d √(ρ/P), at most: a collapse takes
+/// about one.
+constexpr double kRelaxation = 0.5;
 /// The thesis calls a sample static after 20,000 steps (chapter 4) of 0.0994 of the smallest grain's Rayleigh
 /// time (Appendix A): a time of so many Rayleigh times, whatever the step or the contact stiffness.
 constexpr double kStaticRayleighTimes = 20000 * 0.0994;
+/// Share of the target below which a sample with friction may be compressed faster: it remembers its way.
+constexpr double kFrictionalApproach = 0.01;
 constexpr int kSamplesPerWindow = 20;
 constexpr std::size_t kSignatureSize = 96;
 
@@ -106,6 +111,8 @@ void FixStressServo::init() {
   diameter_ = arguments_.diameter;
   if (arguments_.diameter_kind == suffuse::MeanDiameter::kMass) diameter_ = grains.mass_mean_diameter;
   if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
+  if (!arguments_.approach_given)
+    arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
   set_static_window();
 }
 
@@ -154,9 +161,10 @@ void FixStressServo::measure_stress() {
 
 void FixStressServo::measure_network() {
   network_ = suffuse::measure_network(lmp, *sampler_, groupbit);
-  is_static_ = servo::sample_static(static_window_, static_cast<double>(update->ntimestep) * update->dt,
-                                    servo::mean_stress(stress_), network_.coordination, window_,
-                                    arguments_.settings.tolerance);
+  is_static_ = servo::sample_static(static_window_, arguments_.settings,
+                                    {static_cast<double>(update->ntimestep) * update->dt,
+                                     servo::mean_stress(stress_), network_.coordination, network_.unbalanced},
+                                    window_);
 }
 
 /// A divisor of `every`, so that every sample of the network is a control step.
@@ -165,7 +173,7 @@ void FixStressServo::choose_interval() {
   if (arguments_.every_given) return;
   const double inertial_time = inertial_size() / std::sqrt(std::max(arguments_.settings.target, 1.0));
   interval_ = servo::control_interval(arguments_.settings, arguments_.every,
-                                      inertial_time / (kRelaxationIntervals * update->dt));
+                                      kRelaxation * inertial_time / (kRelaxationIntervals * update->dt));
 }
 
 /// A lost sample may well have the target's stress. Grains that an insertion adds are taken up.

@@ -8,7 +8,8 @@ namespace suffuse {
 namespace {
 
 constexpr const char* kKeywords =
-    "every, inertial_number, diameter, max_rate, tolerance, static_window, progress, until";
+    "every, inertial_number, diameter, max_rate, approach, tolerance, static_window, unbalanced, progress, "
+    "until";
 
 int axis_index(const std::string& who, const std::string& word) {
   if (word == "x") return 0;
@@ -115,6 +116,14 @@ void read_option(ArgumentReader& reader, ServoArguments& arguments) {
     }
   } else if (key == "max_rate") {
     arguments.settings.max_rate = reader.positive("max_rate");
+  } else if (key == "approach") {
+    arguments.approach_given = true;
+    const double share = arguments.settings.approach_share = reader.positive("approach");
+    if (share > 1)
+      throw_user_error({reader.who(), "approach", fmt::format("{:g}", share), "be <= 1",
+                        "it is a share of the target stress"});
+  } else if (key == "unbalanced") {
+    arguments.settings.unbalanced = reader.accept("off") ? 0 : reader.positive("unbalanced (off or a ratio)");
   } else if (key == "tolerance") {
     arguments.settings.tolerance = reader.positive("tolerance");
   } else if (key == "static_window") {

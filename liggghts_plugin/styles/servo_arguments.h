@@ -14,6 +14,7 @@ struct ServoArguments {
   servo::Settings settings;
   std::int64_t every = 50;        ///< steps between control steps, the most
   bool every_given = false;       ///< then always so many
+  bool approach_given = false;    ///< else settings.approach_share follows the grains' friction
   std::int64_t window_steps = 0;  ///< of `static`; 0: from the Rayleigh time
   double progress_every = 30;     ///< s of wall clock between progress lines; 0: none
   MeanDiameter diameter_kind = MeanDiameter::kMass;

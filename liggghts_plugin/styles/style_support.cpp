@@ -20,6 +20,7 @@
 #include "force.h"
 #include "group.h"
 #include "lammps.h"
+#include "modify.h"
 #include "pair_gran.h"
 #include "suffuse/common/error.h"
 #include "update.h"
@@ -154,6 +155,17 @@ void require_si_units(LAMMPS* lmp, std::string_view who) {
   if (std::strcmp(lmp->update->unit_style, "si") == 0) return;
   throw_user_error(
       {std::string(who), "units", lmp->update->unit_style, "be si", "write `units si` and SI values"});
+}
+
+bool grains_have_friction(LAMMPS* lmp) {
+  const int types = lmp->atom->ntypes;
+  auto* friction = dynamic_cast<LAMMPS_NS::FixPropertyGlobal*>(lmp->modify->find_fix_property(
+      "coefficientFriction", "property/global", "peratomtypepair", types, types, "suffuse", false));
+  if (friction == nullptr) return false;
+  for (int i = 0; i < types; ++i)
+    for (int j = 0; j < types; ++j)
+      if (friction->compute_array(i, j) > 0) return true;
+  return false;
 }
 
 void sum_over_ranks(LAMMPS* lmp, std::span<double> values) {

@@ -73,6 +73,9 @@ void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 /// Throws unless the script has `units si`: our formulas and defaults are SI's.
 void require_si_units(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
+/// Does any pair of types have a coefficient of friction above 0? Not where the script defines none.
+bool grains_have_friction(LAMMPS_NS::LAMMPS* lmp);
+
 /// Sum over ranks, in place.
 void sum_over_ranks(LAMMPS_NS::LAMMPS* lmp, std::span<double> values);
 

@@ -31,6 +31,8 @@ CASES = [
     (SAMPLE + SERVO + "cyclic 100e3 axis z rate 1\n", ["deviator = none", "two bounds"]),
     (SAMPLE + SERVO + "cyclic 100e3 deviator 40e3 -20e3\n", ["deviator = 40000 -20000", "lower < upper"]),
     (SAMPLE + SERVO + "isotropic 200e3 diameter median\n", ["diameter = median", "mass, number"]),
+    (SAMPLE + SERVO + "isotropic 200e3 approach 2\n", ["approach = 2", "be <= 1"]),
+    (SAMPLE + SERVO + "isotropic 200e3 unbalanced 0\n", ["unbalanced (off or a ratio) = 0", "> 0"]),
     (OPEN_SAMPLE + SERVO + "isotropic 200e3\n", ["boundary", "be periodic"]),
     (SAMPLE + "group none empty\n".replace("empty", "type 2") + "fix s none stress/servo isotropic 200e3\n", ["group = none", "be all"]),
     (SAMPLE + SERVO + "isotropic 200e3\nfix t all stress/servo isotropic 200e3\nrun 10\n", ["servos = 2", "unfix"]),
