@@ -111,8 +111,8 @@ T get_scalar(hid_t file, const std::string& object, const std::string& name) {
 
 bool some_left_open = false;
 
-/// Takes blocks of the disk behind the file's end; 0, or why there are none. Where a file system cannot do that
-/// the room that it says to have counts.
+/// Takes blocks of the disk behind the file's end; 0, or why there are none. Where a file system cannot do
+/// that the room that it says to have counts.
 int no_room(const std::string& path, std::size_t bytes) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
   if (file < 0) return errno;
@@ -146,7 +146,8 @@ void Hdf5File::together(const std::function<void()>& work) const {
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, handle_->communicator);
   if (failed == 0) return;
   if (handle_->reads)
-    throw_user_error({"HDF5", "file", path_, "hold what is read from it", "it may be damaged or of another kind"});
+    throw_user_error(
+        {"HDF5", "file", path_, "hold what is read from it", "it may be damaged or of another kind"});
   throw_user_error({"HDF5", "file", path_, "take what is written", "is the disk full?"});
 }
 
@@ -171,7 +172,8 @@ void Hdf5File::reserve(std::size_t bytes) {
   if (rank == 0) problem = no_room(path_, bytes + structure);
   MPI_Bcast(&problem, 1, MPI_INT, 0, handle_->communicator);
   if (problem != 0)
-    throw_user_error({"HDF5", "file", path_, fmt::format("have room for {:.3g} MB more", 1e-6 * static_cast<double>(bytes)),
+    throw_user_error({"HDF5", "file", path_,
+                      fmt::format("have room for {:.3g} MB more", 1e-6 * static_cast<double>(bytes)),
                       std::string(std::strerror(problem)) + "; what was written before is whole"});
 }
 
@@ -307,14 +309,10 @@ std::vector<std::size_t> Hdf5File::extents(const std::string& dataset) const {
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
-  together([&] {
-    set_scalar(handle_->file, object, name, value);
-  });
+  together([&] { set_scalar(handle_->file, object, name, value); });
 }
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::int64_t value) {
-  together([&] {
-    set_scalar(handle_->file, object, name, value);
-  });
+  together([&] { set_scalar(handle_->file, object, name, value); });
 }
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& value) {
   together([&] {
@@ -324,8 +322,8 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
     const Id type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
     ensure(H5Tset_size(type, value.size() + 1), "size a text");
     const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
-    const Id attribute(H5Acreate_by_name(handle_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                         H5P_DEFAULT, H5P_DEFAULT),
+    const Id attribute(H5Acreate_by_name(handle_->file, object.c_str(), name.c_str(), type, space,
+                                         H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                        H5Aclose, "create attribute " + name);
     ensure(H5Awrite(attribute, type, value.c_str()), "write attribute " + name);
   });

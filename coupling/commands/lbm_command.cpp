@@ -233,7 +233,8 @@ void LbmCommand::read_state() {
          "`run` and `dem_timestep`"});
   const bool moves = port_->anything_moves();
   if (moves) require_grains_of(lmp_, state_to_read_);
-  if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_))) simulation_->continue_loads();
+  if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_)))
+    simulation_->continue_loads();
   load_pore_coefficients(state_to_read_, *simulation_);
   output_.set_references(load_references(state_to_read_, lmp_->world));
   continued_at_ = simulation_->time_si();

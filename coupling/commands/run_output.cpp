@@ -84,7 +84,8 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
   lbm::save_state(simulation.fluid(), set.fluid);
   {
     Hdf5File state(set.fluid, Hdf5File::Mode::append, lmp->world);
-    state.reserve(sizeof(float) * lbm::CellBox{{0, 0, 0}, simulation.fluid().decomposition().cells()}.volume());
+    state.reserve(sizeof(float) *
+                  lbm::CellBox{{0, 0, 0}, simulation.fluid().decomposition().cells()}.volume());
     state.set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
     save_settings(state, simulation);
     save_references(state, references, lmp->world);

@@ -89,8 +89,9 @@ std::uint64_t sum_of(const std::string& path) {
 
 /// What `set` says of the files beside it.
 std::string contents(const fs::path& set) {
-  return fmt::format("suffuse state, version 1\n{} bytes\n{} bytes, sum {:016x}\n", fs::file_size(set / kFluid),
-                     fs::file_size(set / kGrains), sum_of((set / kGrains).string()));
+  return fmt::format("suffuse state, version 1\n{} bytes\n{} bytes, sum {:016x}\n",
+                     fs::file_size(set / kFluid), fs::file_size(set / kGrains),
+                     sum_of((set / kGrains).string()));
 }
 
 std::string text_of(const fs::path& path) {
@@ -147,7 +148,8 @@ std::string fluid_of_set(const std::string& file) {
     return (fs::path(file) / kFluid).string();
   }
   if (!fs::is_regular_file(file))
-    throw_user_error({"lbm restart read", "file", file, "be a state that `lbm restart write` saved", "check the path"});
+    throw_user_error(
+        {"lbm restart read", "file", file, "be a state that `lbm restart write` saved", "check the path"});
   return file;
 }
 

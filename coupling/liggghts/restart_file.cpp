@@ -109,12 +109,14 @@ bool grains_follow(const Mapped& file, std::size_t at, const Header& header) {
   std::int64_t grains = 0;
   for (int rank = 0; rank < header.ranks; ++rank) {
     int values = 0;
-    if (!file.get(at, values) || values < 0 || static_cast<std::size_t>(values) > (file.size() - at) / 8) return false;
+    if (!file.get(at, values) || values < 0 || static_cast<std::size_t>(values) > (file.size() - at) / 8)
+      return false;
     const std::size_t end = at + 8 * static_cast<std::size_t>(values);
     while (at < end) {
       std::size_t from = at;
       double length = 0;
-      if (!file.get(from, length) || !(length >= 1) || length > values || length != std::floor(length)) return false;
+      if (!file.get(from, length) || !(length >= 1) || length > values || length != std::floor(length))
+        return false;
       at += 8 * static_cast<std::size_t>(length);
       ++grains;
     }

@@ -85,7 +85,7 @@ def check_full_state(program, folder):
         program.must_run(start + f"lbm run 1e-3\nlbm restart write {place}/state\n", folder, "good again")
         take_up(program, folder, f"{place}/state.1")
         take_up(program, folder, f"{place}/state.2")
-        fill(place, 4)
+        fill(place, 0)
         ends_with_a_sentence(program, start + f"write_restart {place}/dry\n", folder, "write_restart", ["is the disk full"])
 
 

@@ -21,7 +21,8 @@ class SafeFile {
   SafeFile& operator=(const SafeFile&) = delete;
 
   void write(std::string_view text);
-  /// Closes, waits for the disk and renames. Throws UserError if the disk is full or the name cannot be taken.
+  /// Closes, waits for the disk and renames. Throws UserError if the disk is full or the name cannot be
+  /// taken.
   void commit();
   const std::string& path() const { return path_; }
 
