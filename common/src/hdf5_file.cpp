@@ -1,10 +1,17 @@
 #include "suffuse/common/hdf5_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <hdf5.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <utility>
 
 #include "suffuse/common/error.h"
 
@@ -102,18 +109,83 @@ T get_scalar(hid_t file, const std::string& object, const std::string& name) {
   return value;
 }
 
+bool some_left_open = false;
+
+/// Takes blocks of the disk behind the file's end; 0, or why there are none. Where a file system cannot do
+/// that the room that it says to have counts.
+int no_room(const std::string& path, std::size_t bytes) {
+  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  if (file < 0) return errno;
+  int problem = 0;
+  const off_t size = lseek(file, 0, SEEK_END);
+  if (fallocate(file, FALLOC_FL_KEEP_SIZE, size, static_cast<off_t>(bytes)) != 0) problem = errno;
+  if (problem == EOPNOTSUPP || problem == ENOSYS) {
+    struct statvfs room {};
+    problem = fstatvfs(file, &room) == 0 && room.f_bavail * room.f_frsize < bytes ? ENOSPC : 0;
+  }
+  close(file);
+  return problem;
+}
+
 }  // namespace
 
 struct Hdf5File::Handle {
   hid_t file = -1;
+  MPI_Comm communicator = MPI_COMM_NULL;
+  bool reads = false;
 };
+
+/// A failure on one rank is the same UserError on all: what follows is collective.
+void Hdf5File::together(const std::function<void()>& work) const {
+  int failed = 0;
+  try {
+    work();
+  } catch (const std::runtime_error&) {  // of ensure and Id; the sentence below says what a person can do
+    failed = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, handle_->communicator);
+  if (failed == 0) return;
+  if (handle_->reads)
+    throw_user_error(
+        {"HDF5", "file", path_, "hold what is read from it", "it may be damaged or of another kind"});
+  throw_user_error({"HDF5", "file", path_, "take what is written", "is the disk full?"});
+}
+
+bool Hdf5File::left_open() {
+  return some_left_open;
+}
+
+void Hdf5File::close() {
+  together([this] {
+    const hid_t file = std::exchange(handle_->file, -1);
+    if (file >= 0 && H5Fclose(file) < 0) {
+      some_left_open = true;
+      throw std::runtime_error("HDF5: cannot close " + path_);
+    }
+  });
+}
+
+void Hdf5File::reserve(std::size_t bytes) {
+  constexpr std::size_t structure = 1 << 16;  // what HDF5 itself writes about some arrays
+  int rank = 0, problem = 0;
+  MPI_Comm_rank(handle_->communicator, &rank);
+  if (rank == 0) problem = no_room(path_, bytes + structure);
+  MPI_Bcast(&problem, 1, MPI_INT, 0, handle_->communicator);
+  if (problem != 0)
+    throw_user_error({"HDF5", "file", path_,
+                      fmt::format("have room for {:.3g} MB more", 1e-6 * static_cast<double>(bytes)),
+                      std::string(std::strerror(problem)) + "; what was written before is whole"});
+}
 
 Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
     : handle_(std::make_unique<Handle>()), path_(path) {
+  handle_->communicator = communicator;
+  handle_->reads = mode == Mode::read;
   H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is thrown, not printed
   int rank = 0, there = 0;
   MPI_Comm_rank(communicator, &rank);
-  if (rank == 0) there = std::filesystem::exists(path) ? 1 : 0;
+  std::error_code ignored;
+  if (rank == 0) there = std::filesystem::exists(path, ignored) ? 1 : 0;
   MPI_Bcast(&there, 1, MPI_INT, 0, communicator);
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up access to " + path);
   ensure(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "use MPI for " + path);
@@ -123,7 +195,9 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
     handle_->file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
   else
     handle_->file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  if (handle_->file < 0)
+  int failed = handle_->file < 0 ? 1 : 0;
+  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, communicator);
+  if (failed != 0)
     throw_user_error(
         {"HDF5", "file", path,
          mode == Mode::read ? "be a readable HDF5 file" : "be writable, and HDF5 where it is continued",
@@ -132,7 +206,7 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
 }
 
 Hdf5File::~Hdf5File() {
-  if (handle_->file >= 0) H5Fclose(handle_->file);
+  if (handle_->file >= 0 && H5Fclose(handle_->file) < 0) some_left_open = true;
 }
 
 bool Hdf5File::exists(const std::string& object) const {
@@ -144,36 +218,44 @@ bool Hdf5File::exists(const std::string& object) const {
 }
 
 void Hdf5File::create_group(const std::string& group) {
-  const Id id(H5Gcreate(handle_->file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-              "create group " + group + " in " + path_);
+  together([&] {
+    const Id id(H5Gcreate(handle_->file, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                "create group " + group + " in " + path_);
+  });
 }
 
 void Hdf5File::remove(const std::string& object) {
-  ensure(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), "remove " + object + " from " + path_);
+  together([&] {
+    ensure(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), "remove " + object + " from " + path_);
+  });
 }
 
 std::vector<std::string> Hdf5File::names_in(const std::string& group) const {
-  const Id id(H5Gopen(handle_->file, group.c_str(), H5P_DEFAULT), H5Gclose, "open group " + group);
   std::vector<std::string> names;
-  H5G_info_t info;
-  ensure(H5Gget_info(id, &info), "list " + group);
-  for (hsize_t n = 0; n < info.nlinks; ++n) {
-    const ssize_t length =
-        H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, nullptr, 0, H5P_DEFAULT);
-    std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1, '\0');
-    H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, name.data(), name.size(), H5P_DEFAULT);
-    name.pop_back();
-    names.push_back(name);
-  }
+  together([&] {
+    const Id id(H5Gopen(handle_->file, group.c_str(), H5P_DEFAULT), H5Gclose, "open group " + group);
+    H5G_info_t info;
+    ensure(H5Gget_info(id, &info), "list " + group);
+    for (hsize_t n = 0; n < info.nlinks; ++n) {
+      const ssize_t length =
+          H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, nullptr, 0, H5P_DEFAULT);
+      std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1, '\0');
+      H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, n, name.data(), name.size(), H5P_DEFAULT);
+      name.pop_back();
+      names.push_back(name);
+    }
+  });
   return names;
 }
 
 template <class T>
 void Hdf5File::create_array(const std::string& dataset, const std::vector<std::size_t>& extents) {
-  const Id space(space_for(extents), H5Sclose, "shape " + dataset);
-  const Id id(
-      H5Dcreate(handle_->file, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Dclose, "create " + dataset + " in " + path_);
+  together([&] {
+    const Id space(space_for(extents), H5Sclose, "shape " + dataset);
+    const Id id(
+        H5Dcreate(handle_->file, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Dclose, "create " + dataset + " in " + path_);
+  });
 }
 
 template <class T>
@@ -181,73 +263,91 @@ void Hdf5File::write(const std::string& dataset, const ArrayPart& part, const st
   if (values.size() != volume(part))
     throw std::logic_error("Hdf5File::write: " + dataset + " has another size");
   if (nothing_in(part)) return;
-  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
-  const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
-  select(file_space, part);
-  const hsize_t length = values.size();
-  const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
-  const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
-  ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "write together");
-  ensure(H5Dwrite(id, type_of<T>(), memory, file_space, transfer, values.data()),
-         "write " + dataset + " to " + path_);
+  together([&] {
+    const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
+    const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+    select(file_space, part);
+    const hsize_t length = values.size();
+    const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
+    const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
+    ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "write together");
+    ensure(H5Dwrite(id, type_of<T>(), memory, file_space, transfer, values.data()),
+           "write " + dataset + " to " + path_);
+  });
 }
 
 template <class T>
 std::vector<T> Hdf5File::read(const std::string& dataset, const ArrayPart& part) const {
-  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
-              "find " + dataset + " in " + path_);
-  const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
-  select(file_space, part);
-  std::vector<T> values(volume(part));
-  const hsize_t length = values.size();
-  const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
-  const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
-  ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "read together");
-  ensure(H5Dread(id, type_of<T>(), memory, file_space, transfer, values.data()),
-         "read " + dataset + " of " + path_);
+  std::vector<T> values;
+  together([&] {
+    const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
+                "find " + dataset + " in " + path_);
+    const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+    select(file_space, part);
+    values.resize(volume(part));
+    const hsize_t length = values.size();
+    const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
+    const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
+    ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "read together");
+    ensure(H5Dread(id, type_of<T>(), memory, file_space, transfer, values.data()),
+           "read " + dataset + " of " + path_);
+  });
   return values;
 }
 
 std::vector<std::size_t> Hdf5File::extents(const std::string& dataset) const {
-  const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
-              "find " + dataset + " in " + path_);
-  const Id space(H5Dget_space(id), H5Sclose, "shape " + dataset);
-  std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
-  H5Sget_simple_extent_dims(space, dims.data(), nullptr);
-  return {dims.begin(), dims.end()};
+  std::vector<std::size_t> extents;
+  together([&] {
+    const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
+                "find " + dataset + " in " + path_);
+    const Id space(H5Dget_space(id), H5Sclose, "shape " + dataset);
+    std::vector<hsize_t> dims(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+    H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+    extents.assign(dims.begin(), dims.end());
+  });
+  return extents;
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
-  set_scalar(handle_->file, object, name, value);
+  together([&] { set_scalar(handle_->file, object, name, value); });
 }
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, std::int64_t value) {
-  set_scalar(handle_->file, object, name, value);
+  together([&] { set_scalar(handle_->file, object, name, value); });
 }
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& value) {
-  if (H5Aexists_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
-    ensure(H5Adelete_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT),
-           "replace attribute " + name);
-  const Id type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
-  ensure(H5Tset_size(type, value.size() + 1), "size a text");
-  const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
-  const Id attribute(H5Acreate_by_name(handle_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
-                                       H5P_DEFAULT, H5P_DEFAULT),
-                     H5Aclose, "create attribute " + name);
-  ensure(H5Awrite(attribute, type, value.c_str()), "write attribute " + name);
+  together([&] {
+    if (H5Aexists_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+      ensure(H5Adelete_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT),
+             "replace attribute " + name);
+    const Id type(H5Tcopy(H5T_C_S1), H5Tclose, "make a text type");
+    ensure(H5Tset_size(type, value.size() + 1), "size a text");
+    const Id space(H5Screate(H5S_SCALAR), H5Sclose, "make a scalar");
+    const Id attribute(H5Acreate_by_name(handle_->file, object.c_str(), name.c_str(), type, space,
+                                         H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose, "create attribute " + name);
+    ensure(H5Awrite(attribute, type, value.c_str()), "write attribute " + name);
+  });
 }
 
 double Hdf5File::number_attribute(const std::string& object, const std::string& name) const {
-  return get_scalar<double>(handle_->file, object, name);
+  double value{};
+  together([&] { value = get_scalar<double>(handle_->file, object, name); });
+  return value;
 }
 std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::string& name) const {
-  return get_scalar<std::int64_t>(handle_->file, object, name);
+  std::int64_t value{};
+  together([&] { value = get_scalar<std::int64_t>(handle_->file, object, name); });
+  return value;
 }
 std::string Hdf5File::text_attribute(const std::string& object, const std::string& name) const {
-  const Id attribute(H5Aopen_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                     H5Aclose, "find attribute " + name + " of " + object);
-  const Id type(H5Aget_type(attribute), H5Tclose, "type attribute " + name);
-  std::string value(H5Tget_size(type), '\0');
-  ensure(H5Aread(attribute, type, value.data()), "read attribute " + name);
+  std::string value;
+  together([&] {
+    const Id attribute(H5Aopen_by_name(handle_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose, "find attribute " + name + " of " + object);
+    const Id type(H5Aget_type(attribute), H5Tclose, "type attribute " + name);
+    value.assign(H5Tget_size(type), '\0');
+    ensure(H5Aread(attribute, type, value.data()), "read attribute " + name);
+  });
   return value.substr(0, value.find('\0'));
 }
 

@@ -1,11 +1,24 @@
 #include "suffuse/common/safe_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <system_error>
 
 #include "suffuse/common/error.h"
 
 namespace suffuse {
+
+void wait_for_disk(const std::string& path, const std::string& who) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool written = file >= 0 && (fsync(file) == 0 || errno == EINVAL || errno == ENOSYS);
+  const std::error_code problem(errno, std::generic_category());
+  if (file >= 0) close(file);
+  if (!written)
+    throw_user_error({who, "file", path, "take what is written", problem.message() + "; is the disk full?"});
+}
 
 SafeFile::SafeFile(std::string path, std::string who)
     : path_(std::move(path)), part_(path_ + ".part"), who_(std::move(who)) {
@@ -30,6 +43,7 @@ void SafeFile::write(std::string_view text) {
 void SafeFile::commit() {
   stream_.close();
   std::error_code problem;
+  if (stream_) wait_for_disk(part_, who_);
   if (stream_) std::filesystem::rename(part_, path_, problem);
   if (!stream_ || problem)
     throw_user_error({who_, "file", path_, "take what is written", "is the disk full?"});

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <new>
@@ -18,6 +19,7 @@
 #include "lammps.h"
 #include "register_styles.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
 
 /// LIGGGHTS ends by this on its own errors, and what it said would be lost where screen and log are files
 /// that have not been flushed yet.
@@ -193,6 +195,11 @@ int main(int argc, char** argv) {
     if (rank == 0) answered_without_a_script(argc, argv);
   } else {
     code = run_script(argc, argv, rank);
+  }
+  if (suffuse::Hdf5File::left_open()) {
+    std::fflush(nullptr);
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::_Exit(code);
   }
   MPI_Finalize();
   return code;

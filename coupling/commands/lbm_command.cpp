@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 
+#include "../liggghts/restart_commands.h"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -17,7 +17,9 @@
 #include "region.h"
 #include "region_block.h"
 #include "register_styles.h"
+#include "saved_set.h"
 #include "styles/fix_lubrication.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -69,6 +71,7 @@ FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::
 }  // namespace
 
 void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
+  add_restart_commands(lmp);
   add_command(lmp, "lbm", &run_line);
 }
 
@@ -144,15 +147,13 @@ void LbmCommand::restart(ArgumentReader& reader) {
   const std::string file = reader.word("file");
   if (mode == "read") {
     refuse_after_start("restart read");
-    if (!std::filesystem::is_regular_file(file))
-      throw_user_error(
-          {reader.who(), "file", file, "be a state that `lbm restart write` saved", "check the path"});
-    state_to_read_ = file;
+    on_first_rank(reader.who(), lmp_->world, [&] { state_to_read_ = fluid_of_set(file); });
+    share_text(state_to_read_, lmp_->world);
   } else if (mode == "write") {
     if (reader.accept("every")) {
       const CheckpointRequest checkpoint{file, reader.positive("every")};
       settings_.checkpoint.reset();
-      refuse_shared_files(reader, settings_, {file, file + ".grains"});
+      refuse_shared_files(reader, settings_, files_of(checkpoint));
       settings_.checkpoint = checkpoint;
     } else if (simulation_ == nullptr) {
       throw_user_error(
@@ -232,7 +233,8 @@ void LbmCommand::read_state() {
          "`run` and `dem_timestep`"});
   const bool moves = port_->anything_moves();
   if (moves) require_grains_of(lmp_, state_to_read_);
-  if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_))) simulation_->continue_loads();
+  if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_)))
+    simulation_->continue_loads();
   load_pore_coefficients(state_to_read_, *simulation_);
   output_.set_references(load_references(state_to_read_, lmp_->world));
   continued_at_ = simulation_->time_si();

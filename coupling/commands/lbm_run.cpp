@@ -196,10 +196,13 @@ std::optional<std::string> LbmRun::weight_note() const {
   if (water.isZero() || simulation_.settings().effects.buoyancy == Switch::off || !port_.anything_moves())
     return std::nullopt;
   const auto grains = port_.gravity_on_grains();
-  if (!grains || grains->isZero() || (*grains - water).norm() < kSameGravity * water.norm()) return std::nullopt;
+  if (!grains || grains->isZero() || (*grains - water).norm() < kSameGravity * water.norm())
+    return std::nullopt;
   return fmt::format(
-      "lbm run: note: `fix gravity` weighs grains with {:.4g} m/s^2, `lbm force gravity` the water with {:.4g}: "
-      "grains get the buoyancy of the water on top; a weight that is reduced by it counts it twice: give both "
+      "lbm run: note: `fix gravity` weighs grains with {:.4g} m/s^2, `lbm force gravity` the water with "
+      "{:.4g}: "
+      "grains get the buoyancy of the water on top; a weight that is reduced by it counts it twice: give "
+      "both "
       "the same g, or write `lbm effect buoyancy off`",
       grains->norm(), water.norm());
 }

@@ -356,6 +356,12 @@ std::vector<std::string> files_of(const OutputRequest& output) {
   return files;
 }
 
+std::vector<std::string> files_of(const CheckpointRequest& checkpoint) {
+  std::vector<std::string> files;
+  for (const char* end : {"", ".grains", ".1", ".2", ".new"}) files.push_back(checkpoint.file + end);
+  return files;
+}
+
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files) {
   std::map<std::string, std::string> taken;
@@ -365,7 +371,7 @@ void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settin
   for (const OutputRequest& output : settings.outputs)
     for (const std::string& file : files_of(output)) taken[key(file)] = "lbm output " + output.id;
   if (settings.checkpoint)
-    for (const char* end : {"", ".grains"}) taken[key(settings.checkpoint->file + end)] = "lbm restart write";
+    for (const std::string& file : files_of(*settings.checkpoint)) taken[key(file)] = "lbm restart write";
   for (const std::string& file : files)
     if (const auto other = taken.find(key(file)); other != taken.end())
       throw_user_error({reader.who(), "file", file, fmt::format("not be that of `{}`", other->second),

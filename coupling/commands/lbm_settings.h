@@ -70,6 +70,8 @@ lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& uni
 
 /// Every file that an output writes.
 std::vector<std::string> files_of(const OutputRequest& output);
+/// And every file or folder of a saved state (saved_set.h).
+std::vector<std::string> files_of(const CheckpointRequest& checkpoint);
 
 /// A UserError if one of these files belongs to another monitor, output or restart line already.
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,

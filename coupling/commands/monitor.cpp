@@ -11,6 +11,7 @@
 #include "lammps.h"
 #include "lbm_settings.h"
 #include "modify.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::coupling {
@@ -86,10 +87,17 @@ void Monitor::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulatio
   std::vector<double> values{simulation.time_si()};
   lmp->modify->clearstep_compute();  // values of other steps are not those of this one
   for (const Quantity& quantity : quantities_) quantity.append(sample, values);
-  if (!speaks_) return;
-  std::string line;
-  for (const double value : values) line += fmt::format("{}{}", line.empty() ? "" : ",", value);
-  file_ << line << std::endl;
+  const std::string who = "lbm monitor " + request_.id;
+  on_first_rank(who, lmp->world, [&] {
+    std::string line;
+    for (const double value : values) line += fmt::format("{}{}", line.empty() ? "" : ",", value);
+    const auto whole = static_cast<std::uintmax_t>(file_.tellp());
+    file_ << line << std::endl;
+    if (file_) return;
+    file_.close();
+    std::filesystem::resize_file(request_.file, whole);  // no half row
+    throw_user_error({who, "file", request_.file, "take what is written", "is the disk full?"});
+  });
 }
 
 }  // namespace suffuse::coupling

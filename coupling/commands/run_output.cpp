@@ -1,14 +1,21 @@
 #include "run_output.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "../liggghts/restart_file.h"
 #include "comm.h"
 #include "lammps.h"
+#include "saved_set.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -52,27 +59,41 @@ std::string grains_file(const std::string& file) {
 
 }  // namespace
 
-/// Both files are written beside the old ones, which they replace when they are whole.
+/// LIGGGHTS does not check what it writes: its file goes to memory, and from there to the disk.
+void write_grains_file(LAMMPS_NS::LAMMPS* lmp, const std::string& path) {
+  constexpr const char* who = "lbm restart write";
+  int memory = -1;
+  on_first_rank(who, lmp->world, [&] {
+    memory = memfd_create("grains", MFD_CLOEXEC);
+    if (memory < 0) throw_user_error({who, "file", path, "find memory for the grains", std::strerror(errno)});
+  });
+  std::string in_memory = fmt::format("/proc/self/fd/{}", memory);
+  LAMMPS_NS::WriteRestart(lmp).write(in_memory.data());
+  on_first_rank(who, lmp->world, [&] {
+    const bool whole = is_whole_restart_file(in_memory);
+    if (whole) write_checked(memory, path, who);
+    close(memory);
+    if (!whole)
+      throw_user_error({who, "grains", path, "be written whole by LIGGGHTS", "is there memory for them?"});
+  });
+}
+
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
                       const MonitorReferences& references, const std::string& file) {
-  const std::string fresh = file + ".new";
-  require_writable("lbm restart write", fresh, lmp->world);
-  lbm::save_state(simulation.fluid(), fresh);
+  const NewSet set = begin_set(file, lmp->world);
+  lbm::save_state(simulation.fluid(), set.fluid);
   {
-    Hdf5File state(fresh, Hdf5File::Mode::append, lmp->world);
+    Hdf5File state(set.fluid, Hdf5File::Mode::append, lmp->world);
+    state.reserve(sizeof(float) *
+                  lbm::CellBox{{0, 0, 0}, simulation.fluid().decomposition().cells()}.volume());
     state.set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
     save_settings(state, simulation);
     save_references(state, references, lmp->world);
     save_pore_coefficients(state, simulation);
+    state.close();
   }
-  std::string grains = fresh + ".grains";
-  LAMMPS_NS::WriteRestart(lmp).write(grains.data());
-  MPI_Barrier(lmp->world);
-  if (lmp->comm->me == 0) {
-    std::filesystem::rename(grains, file + ".grains");
-    std::filesystem::rename(fresh, file);
-  }
-  MPI_Barrier(lmp->world);
+  write_grains_file(lmp, set.grains);
+  finish_set(file, lmp->world);
 }
 
 namespace {
@@ -91,7 +112,7 @@ void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
     throw_user_error(
         {"lbm restart", "read " + file, fmt::format("water of LIGGGHTS's step {}", saved),
          fmt::format("meet grains of that step, not of step {}", lmp->update->ntimestep),
-         "read_restart the .grains beside it; a run that was killed while it wrote leaves an older one"});
+         "read_restart the grains of the same state: FILE.grains with FILE, FILE.1/grains with FILE.1"});
 }
 
 void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
@@ -134,7 +155,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  if (checkpoint_) require_writable("lbm restart write", checkpoint_->file + ".new", lmp->world);
+  if (checkpoint_) require_free_for_sets(checkpoint_->file, lmp->world);
   checkpoint_every_ = checkpoint_ ? steps_in(checkpoint_->every, simulation.units()) : 0;
 }
 

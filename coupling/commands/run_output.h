@@ -60,8 +60,7 @@ class RunOutput {
   bool started_ = false;
 };
 
-/// Saves the fluid and what monitors refer to in `file`, and LIGGGHTS's own restart file beside it,
-/// `file`.grains. Collective.
+/// Saves fluid, what monitors refer to, and LIGGGHTS's own restart file as one set (saved_set.h). Collective.
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
                       const MonitorReferences& references, const std::string& file);
 

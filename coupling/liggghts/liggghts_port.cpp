@@ -204,12 +204,29 @@ constexpr std::int64_t kNoStep = std::numeric_limits<std::int64_t>::max();
 
 /// Styles whose work in a step is done anew in the next one, or that have none while grains stay where they
 /// are: forces, and what is kept with grains, meshes and lists. Others count, or change something.
-constexpr std::string_view kOfTheMoment[] = {
-    "freeze",         "setforce",        "aveforce",      "planeforce",    "lineforce",
-    "enforce2d",      "gravity",         "addforce",      "buoyancy",      "viscous",
-    "drag",           "wall/gran",       "property/atom", "property/global", "contacthistory",
-    "contacthistory/mesh", "neighlist/mesh", "mesh/surface", "mesh/surface/planar", "contact/sampler",
-    "hydrodynamic/force",  "lubrication",    "store/force"};
+constexpr std::string_view kOfTheMoment[] = {"freeze",
+                                             "setforce",
+                                             "aveforce",
+                                             "planeforce",
+                                             "lineforce",
+                                             "enforce2d",
+                                             "gravity",
+                                             "addforce",
+                                             "buoyancy",
+                                             "viscous",
+                                             "drag",
+                                             "wall/gran",
+                                             "property/atom",
+                                             "property/global",
+                                             "contacthistory",
+                                             "contacthistory/mesh",
+                                             "neighlist/mesh",
+                                             "mesh/surface",
+                                             "mesh/surface/planar",
+                                             "contact/sampler",
+                                             "hydrodynamic/force",
+                                             "lubrication",
+                                             "store/force"};
 
 /// Is there something that `run` would do in every step, although no fix integrates motion? Held grains that
 /// have a velocity all the same load their contacts in every step.
@@ -219,8 +236,8 @@ bool LiggghtsPort::acts_in_every_step() const {
                             POST_FORCE | PRE_FINAL_INTEGRATE | FINAL_INTEGRATE | PRE_INITIAL_INTEGRATE;
   for (int i = 0; i < lmp_->modify->nfix; ++i) {
     const std::string_view style = lmp_->modify->fix[i]->style;
-    const bool of_the_moment = std::find(std::begin(kOfTheMoment), std::end(kOfTheMoment), style) !=
-                               std::end(kOfTheMoment);
+    const bool of_the_moment =
+        std::find(std::begin(kOfTheMoment), std::end(kOfTheMoment), style) != std::end(kOfTheMoment);
     if ((lmp_->modify->fmask[i] & in_a_step) != 0 && !of_the_moment) return true;
   }
   return held_in_motion().grains > 0;
@@ -254,12 +271,12 @@ void LiggghtsPort::set_time_step(double step) {
   if (std::abs(step - lmp_->update->dt) <= round_off * step) return;
   for (int i = 0; i < lmp_->modify->nfix; ++i)
     if (const std::string style = lmp_->modify->fix[i]->style; style == "move")
-      throw_user_error({"lbm run", "timestep", fmt::format("{:g} s", lmp_->update->dt),
-                        fmt::format("be {:.10g} s, a whole part of the fluid's step: `fix move` does not let it "
-                                    "be changed",
-                                    step),
-                        fmt::format("write `timestep {:.10g}` before `fix {} ... move`", step,
-                                    lmp_->modify->fix[i]->id)});
+      throw_user_error(
+          {"lbm run", "timestep", fmt::format("{:g} s", lmp_->update->dt),
+           fmt::format("be {:.10g} s, a whole part of the fluid's step: `fix move` does not let it "
+                       "be changed",
+                       step),
+           fmt::format("write `timestep {:.10g}` before `fix {} ... move`", step, lmp_->modify->fix[i]->id)});
   lmp_->update->update_time();
   lmp_->update->dt = step;
   if (lmp_->update->integrate != nullptr) lmp_->update->integrate->reset_dt();
@@ -276,8 +293,8 @@ void LiggghtsPort::keep_memory() {
   load_.clear();
 }
 
-/// Grains that nothing moves leave nothing to integrate: then the clock of LIGGGHTS goes on alone to the steps
-/// that count.
+/// Grains that nothing moves leave nothing to integrate: then the clock of LIGGGHTS goes on alone to the
+/// steps that count.
 void LiggghtsPort::advance(int substeps) {
   keep_memory();
   auto* update = lmp_->update;

@@ -85,8 +85,8 @@ class LiggghtsPort final : public ParticlePort {
   /// Which faces of LIGGGHTS's box are periodic: those across x, y, z.
   std::array<bool, 3> periodic() const;
 
-  /// Sets LIGGGHTS's time step, s; one that differs by round-off alone stays as it is. A UserError where a fix
-  /// of the script does not let it change.
+  /// Sets LIGGGHTS's time step, s; one that differs by round-off alone stays as it is. A UserError where a
+  /// fix of the script does not let it change.
   void set_time_step(double step);
 
   /// A UserError where the box is not the one that the fluid was made for, or grains cannot be mapped:
@@ -139,9 +139,9 @@ class LiggghtsPort final : public ParticlePort {
   bool running_ = false;
   bool made_fix_ = false;
   bool moves_ = false;
-  bool every_step_ = false;          ///< some fix does more in every step than what the next one does again
-  std::int64_t announced_step_ = -1; ///< whose values somebody will ask for
-  bool all_grains_ = true;  ///< the fix's group is `all`
+  bool every_step_ = false;           ///< some fix does more in every step than what the next one does again
+  std::int64_t announced_step_ = -1;  ///< whose values somebody will ask for
+  bool all_grains_ = true;            ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
   std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;

@@ -119,6 +119,15 @@ void write_contacts(Hdf5File& file, const std::string& step, const micromechanic
   writer.scalars("spring_force", spring);
 }
 
+/// Bytes of the arrays, of all ranks.
+std::size_t room_for(const GrainSnapshot& snapshot, MPI_Comm communicator) {
+  constexpr std::size_t grain = 8 * (1 + 2 + 5 * 3), contact = 8 * (2 + 2 * 3 + 1);
+  std::size_t bytes = grain * rows_of(static_cast<std::size_t>(snapshot.grains.owned), communicator).all;
+  if (snapshot.network != nullptr)
+    bytes += contact * rows_of(snapshot.network->contacts.size(), communicator).all;
+  return bytes;
+}
+
 std::string xdmf_attribute(const std::string& file, const std::string& group, const std::string& name,
                            std::size_t rows, bool vector, bool integer) {
   return fmt::format(
@@ -153,6 +162,7 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
   {
     Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator);
     append_ = true;
+    file.reserve(room_for(snapshot, communicator));
     for (const std::string& old : file.names_in("/"))
       if (old.starts_with("step_") && old >= name) file.remove("/" + old);
     file.create_group(step);
@@ -166,6 +176,7 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
       if (const std::size_t count = file.extents(part + "/id").at(0); count > 0)
         snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, "time_s"), count);
     }
+    file.close();
   }
   write_text(std::filesystem::path(path_).replace_extension(".xdmf").string(), "output of grains",
              "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "

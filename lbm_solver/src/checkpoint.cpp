@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/cell_array.h"
 #include "suffuse/lbm/lattice.h"
 
@@ -87,6 +89,8 @@ void save_state(const Fluid& fluid, const std::string& path) {
   const std::string unfinished = path + ".part";
   {
     Hdf5File file(unfinished, Hdf5File::Mode::create, d.communicator());
+    const std::size_t each = fluid.settings().precision == Precision::double_precision ? 8 : 4;
+    file.reserve((kDirections * each + 1) * CellBox{{0, 0, 0}, d.cells()}.volume());
     file.set_attribute("/", "what", std::string("suffuse fluid state, version 1"));
     file.set_attribute("/", "storage", name_of(fluid.settings().precision));
     file.set_attribute("/", "steps", static_cast<std::int64_t>(fluid.steps()));
@@ -96,9 +100,12 @@ void save_state(const Fluid& fluid, const std::string& path) {
     else
       write_populations<float>(fluid, file);
     write_labels(fluid, file);
+    file.close();
   }
-  if (d.rank() == 0) std::filesystem::rename(unfinished, path);
-  MPI_Barrier(d.communicator());
+  on_first_rank("fluid restart", d.communicator(), [&] {
+    wait_for_disk(unfinished, "fluid restart");
+    std::filesystem::rename(unfinished, path);
+  });
 }
 
 void load_state(Fluid& fluid, const std::string& path) {

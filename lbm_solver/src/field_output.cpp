@@ -113,6 +113,9 @@ void FieldOutput::write(const Fluid& fluid) {
     const auto mode = started_ || settings_.append ? Hdf5File::Mode::append : Hdf5File::Mode::create;
     Hdf5File file(settings_.path, mode, d.communicator());
     started_ = true;
+    std::size_t values = 0;
+    for (const Field field : settings_.fields) values += field == Field::velocity ? 3 : 1;
+    file.reserve(values * sizeof(float) * CellBox{{0, 0, 0}, d.cells()}.volume());
     for (const std::string& name : file.names_in("/"))
       if (name.starts_with("step_") && name >= group) file.remove("/" + name);
     file.create_group("/" + group);
@@ -125,6 +128,7 @@ void FieldOutput::write(const Fluid& fluid) {
     for (const std::string& name : file.names_in("/"))
       if (name.starts_with("step_"))
         snapshots.push_back({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
+    file.close();
   }
   write_text(std::filesystem::path(path).replace_extension(".xdmf").string(), "output of fields",
              xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()),

@@ -143,7 +143,8 @@ void FixHydrodynamicForce::loads_changed() {
   }
 }
 
-/// Constraints C are affine in the forces: C(f + change) = C(f) + C(change) - C(0), and C(f) is what is there.
+/// Constraints C are affine in the forces: C(f + change) = C(f) + C(change) - C(0), and C(f) is what is
+/// there.
 void FixHydrodynamicForce::change_constrained(int owned) {
   const std::size_t values = 6 * static_cast<std::size_t>(owned);
   std::vector<double> there(values), change(values, 0.);

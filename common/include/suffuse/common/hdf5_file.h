@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,8 +18,8 @@ struct ArrayPart {
 };
 
 /// An HDF5 file that all ranks of a communicator write and read together. Every call is collective. No HDF5
-/// type is visible here. A file that cannot be opened is a UserError, other failures of the file system are
-/// thrown as std::runtime_error with the path, the same on every rank.
+/// type is visible here. What a file or its disk does not take or hold is a UserError, the same on every
+/// rank, so that no rank waits for another.
 class Hdf5File {
  public:
   enum class Mode { create, append, read };  ///< `append` creates the file if there is none
@@ -27,6 +28,18 @@ class Hdf5File {
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
+
+  /// Sees to it that so many bytes more can be written: blocks of the disk are taken for them before. A
+  /// UserError where there are none, before anything has been changed. Collective.
+  void reserve(std::size_t bytes);
+
+  /// The last step of a file that was written: a UserError where the disk did not take all. A destructor
+  /// closes too, and cannot say it. Collective.
+  void close();
+
+  /// Did a file of this process not close, for its disk did not take it? HDF5 then fails when MPI ends: the
+  /// process is to end without.
+  static bool left_open();
 
   bool exists(const std::string& object) const;
   void create_group(const std::string& group);
@@ -51,6 +64,8 @@ class Hdf5File {
   std::string text_attribute(const std::string& object, const std::string& name) const;
 
  private:
+  void together(const std::function<void()>& work) const;
+
   struct Handle;
   std::unique_ptr<Handle> handle_;
   std::string path_;

@@ -6,6 +6,10 @@
 
 namespace suffuse {
 
+/// Waits until what was written to a file, or to the list of files in a folder, is on the disk. A UserError
+/// that `who` begins where the disk does not take it.
+void wait_for_disk(const std::string& path, const std::string& who);
+
 /// A text file that appears under its name only when it is complete: what is written goes to `PATH.part`,
 /// commit() renames it, and without commit() (an error on the way) it is removed.
 class SafeFile {
@@ -17,7 +21,8 @@ class SafeFile {
   SafeFile& operator=(const SafeFile&) = delete;
 
   void write(std::string_view text);
-  /// Closes and renames. Throws UserError if the disk is full or the name cannot be taken.
+  /// Closes, waits for the disk and renames. Throws UserError if the disk is full or the name cannot be
+  /// taken.
   void commit();
   const std::string& path() const { return path_; }
 

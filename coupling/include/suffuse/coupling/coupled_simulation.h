@@ -120,8 +120,8 @@ class CoupledSimulation {
   static constexpr long kNever = -1, kWhoeverIsThere = -2;
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
-  bool stepped_ = false;      ///< since this simulation began
-  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
+  bool stepped_ = false;           ///< since this simulation began
+  long loads_step_ = kNever;       ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;
   std::vector<double> force_, torque_, lead_, spin_lead_;

@@ -1,0 +1,192 @@
+#include "saved_set.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "../liggghts/restart_file.h"
+#include "suffuse/common/collective_text.h"
+#include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kWho = "lbm restart write";
+constexpr const char* kFluid = "fluid.h5";
+constexpr const char* kGrains = "grains";
+constexpr const char* kSet = "set";
+
+std::string folder(const std::string& file, int n) {
+  return fmt::format("{}.{}", file, n);
+}
+
+/// 1 or 2 if FILE is a link to such a folder, whether it is there or not.
+std::optional<int> last_of(const std::string& file) {
+  if (!fs::is_symlink(fs::symlink_status(file))) return std::nullopt;
+  const std::string target = fs::read_symlink(file).string();
+  for (const int n : {1, 2})
+    if (target == fs::path(folder(file, n)).filename()) return n;
+  return std::nullopt;
+}
+
+bool is_there(const std::string& path) {
+  return fs::exists(fs::symlink_status(path));
+}
+
+void require_free(const std::string& file) {
+  const std::string grains = file + ".grains";
+  const bool ours = last_of(file).has_value();
+  if ((is_there(file) && !ours) || (is_there(grains) && !fs::is_symlink(fs::symlink_status(grains))))
+    throw_user_error({kWho, "file", file, "be a name that is free, or of states that this command wrote",
+                      "take another name, or move what is there away"});
+  const fs::path place = fs::path(file).parent_path();
+  if (const std::string at = place.empty() ? "." : place.string();
+      !fs::is_directory(at) || access(at.c_str(), W_OK) != 0)
+    throw_user_error({kWho, "file", file, "be writable", "check its folder"});
+}
+
+/// Makes `link` point to `target`, in one step for whoever looks.
+void set_link(const std::string& target, const std::string& link) {
+  const std::string fresh = link + ".link";
+  fs::remove(fresh);
+  fs::create_symlink(target, fresh);
+  fs::rename(fresh, link);
+}
+
+/// FNV-1a over bytes, 64 bits.
+class Sum {
+ public:
+  void add(const char* bytes, std::size_t count) {
+    for (std::size_t n = 0; n < count; ++n)
+      value_ = (value_ ^ static_cast<unsigned char>(bytes[n])) * 1099511628211ULL;
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+std::uint64_t sum_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> block(1 << 20);
+  Sum sum;
+  while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
+    sum.add(block.data(), static_cast<std::size_t>(file.gcount()));
+  return sum.value();
+}
+
+/// What `set` says of the files beside it.
+std::string contents(const fs::path& set) {
+  return fmt::format("suffuse state, version 1\n{} bytes\n{} bytes, sum {:016x}\n",
+                     fs::file_size(set / kFluid), fs::file_size(set / kGrains),
+                     sum_of((set / kGrains).string()));
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void require_whole(const std::string& who, const std::string& file, const fs::path& set) {
+  const bool there = fs::is_regular_file(set / kFluid) && fs::is_regular_file(set / kGrains) &&
+                     fs::is_regular_file(set / kSet);
+  if (there && text_of(set / kSet) == contents(set)) return;
+  throw_user_error({who, "file", file, "be whole, as it was saved",
+                    "it is damaged or unfinished; the state before it is in the folder NAME.1 or NAME.2"});
+}
+
+}  // namespace
+
+void require_free_for_sets(const std::string& file, MPI_Comm communicator) {
+  on_first_rank(kWho, communicator, [&] { require_free(file); });
+}
+
+NewSet begin_set(const std::string& file, MPI_Comm communicator) {
+  const std::string fresh = file + ".new";
+  on_first_rank(kWho, communicator, [&] {
+    require_free(file);
+    fs::remove_all(fresh);
+    fs::create_directory(fresh);
+  });
+  return {fresh + "/" + kFluid, fresh + "/" + kGrains};
+}
+
+void finish_set(const std::string& file, MPI_Comm communicator) {
+  on_first_rank(kWho, communicator, [&] {
+    const std::string fresh = file + ".new";
+    wait_for_disk(fresh + "/" + kFluid, kWho);
+    SafeFile set(fresh + "/" + kSet, kWho);
+    set.write(contents(fresh));
+    set.commit();
+    wait_for_disk(fresh, kWho);
+    const std::string next = folder(file, 3 - last_of(file).value_or(2));
+    fs::remove_all(next);
+    fs::rename(fresh, next);
+    set_link(fs::path(next).filename().string(), file);
+    if (const std::string grains = file + ".grains"; !is_there(grains))
+      set_link((fs::path(file).filename() / kGrains).string(), grains);
+    const fs::path place = fs::path(file).parent_path();
+    wait_for_disk(place.empty() ? "." : place.string(), kWho);
+  });
+}
+
+std::string fluid_of_set(const std::string& file) {
+  if (fs::is_directory(file)) {
+    require_whole("lbm restart read", file, file);
+    return (fs::path(file) / kFluid).string();
+  }
+  if (!fs::is_regular_file(file))
+    throw_user_error(
+        {"lbm restart read", "file", file, "be a state that `lbm restart write` saved", "check the path"});
+  return file;
+}
+
+void require_whole_restart_file(const std::string& file) {
+  std::error_code ignored;
+  const fs::path real = fs::canonical(file, ignored);
+  if (ignored || !fs::is_regular_file(real)) return;  // LIGGGHTS says that it is not there
+  if (real.filename() == kGrains && fs::exists(real.parent_path() / kSet)) {
+    require_whole("read_restart", file, real.parent_path());
+    return;
+  }
+  if (!is_whole_restart_file(real.string()))
+    throw_user_error({"read_restart", "file", file, "be a whole restart file of LIGGGHTS",
+                      "it is damaged, or its disk was full; take an older one"});
+}
+
+void write_checked(int from, const std::string& path, const std::string& who) {
+  const int to = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int problem = to < 0 ? errno : 0;
+  std::vector<char> block(1 << 20);
+  off_t at = 0;
+  while (problem == 0) {
+    const ssize_t got = pread(from, block.data(), block.size(), at);
+    if (got < 0) problem = errno;
+    if (got <= 0) break;
+    for (ssize_t done = 0; done < got && problem == 0;) {
+      const ssize_t put = write(to, block.data() + done, static_cast<std::size_t>(got - done));
+      if (put < 0 && errno != EINTR) problem = errno;
+      if (put > 0) done += put;
+    }
+    at += got;
+  }
+  if (to >= 0 && fsync(to) != 0 && problem == 0 && errno != EINVAL) problem = errno;
+  if (to >= 0 && close(to) != 0 && problem == 0) problem = errno;
+  if (problem != 0)
+    throw_user_error({who, "file", path, "take what is written",
+                      std::generic_category().message(problem) + "; what was saved before is whole"});
+}
+
+}  // namespace suffuse::coupling

@@ -1,0 +1,185 @@
+#!/usr/bin/env python3
+"""lbm_lost_data.py --suffuse PROGRAM --mpirun SCRIPT --ranks N [--kills K]
+
+What is saved is whole, whatever happens while it is written. A disk that is full (a small file system of its own) while a state, a
+monitor or an output is written ends the run on all ranks with a sentence and exit code 1, and what was written before can be
+read; a run that SIGKILL ends at any instant leaves a state of water and grains of the same step that can be taken up;
+a damaged one is refused. Mounting needs root: without it the full disk is left out, and said.
+"""
+import contextlib
+import os
+import pathlib
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from scenes import Program, columns, expect, scratch  # noqa: E402
+from wet_scenes import WATER, wet_box  # noqa: E402
+
+RUN = "lbm boundary zlo pressure 0.5 zhi pressure 0\n"
+
+
+@contextlib.contextmanager
+def small_disk(folder, megabytes):
+    """A file system of a few megabytes mounted under the folder."""
+    place = folder / "small"
+    place.mkdir(exist_ok=True)
+    subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={int(megabytes * 1024)}k", "tmpfs", str(place)], check=True)
+    try:
+        yield place
+    finally:
+        subprocess.run(["umount", str(place)], check=True)
+
+
+def can_mount(folder):
+    try:
+        with small_disk(folder, 1):
+            return True
+    except (subprocess.CalledProcessError, FileNotFoundError):
+        return False
+
+
+def fill(place, leave_kilobytes):
+    """Leaves so much room on the disk."""
+    room = os.statvfs(place)
+    with open(place / "ballast", "wb") as file:
+        file.write(bytes(max(0, room.f_bavail * room.f_frsize - leave_kilobytes * 1024)))
+
+
+def ends_with_a_sentence(program, text, folder, name, words):
+    code, screen = program.run(text, folder, name, timeout=60)
+    lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
+    expect(code == 1 and len(lines) == 1, f"{name}: code {code}, {len(lines)} error lines\n{screen[-2000:]}")
+    for word in words:
+        expect(re.search(word, lines[0]), f"{name}: no '{word}' in: {lines[0]}")
+    expect("internal error" not in screen, screen[-2000:])
+
+
+def take_up(program, folder, state, name="again"):
+    """Goes on from a state; its step."""
+    text = wet_box(restart=f"{state}/grains") + WATER + RUN + f"lbm restart read {state}\nlbm run 1e-4\n"
+    program.must_run(text, folder, name)
+
+
+def check_full_state(program, folder):
+    """Every kind of shortage: no room for the water, for the grains, for the last bytes."""
+    with small_disk(folder, 16) as place:
+        start = wet_box(restart=str(folder / "start")) + WATER + RUN
+        program.must_run(start + f"lbm run 1e-3\nlbm restart write {place}/state\n", folder, "good")
+        used = sum(file.stat().st_size for file in (place / "state").iterdir())
+        expect((place / "state").is_symlink() and used > 1e6, f"a state of {used} bytes")
+        take_up(program, folder, f"{place}/state")
+        fluid = (place / "state" / "fluid.h5").stat().st_size // 1024
+        for left in (8, fluid // 2, fluid - 4, fluid + 8, fluid + 16):
+            fill(place, left)
+            ends_with_a_sentence(program, start + f"lbm run 1e-3\nlbm restart write {place}/state\n", folder, f"room for {left} kB",
+                                 ["take what is written|have room for"])
+            (place / "ballast").unlink()
+            take_up(program, folder, f"{place}/state")
+            shutil.rmtree(place / "state.new", ignore_errors=True)
+        program.must_run(start + f"lbm run 1e-3\nlbm restart write {place}/state\n", folder, "good again")
+        take_up(program, folder, f"{place}/state.1")
+        take_up(program, folder, f"{place}/state.2")
+        fill(place, 0)
+        ends_with_a_sentence(program, start + f"write_restart {place}/dry\n", folder, "write_restart", ["is the disk full"])
+
+
+def check_full_series(program, folder):
+    """Rows are whole up to the last; snapshots that were written can be read."""
+    with small_disk(folder, 4) as place:
+        start = wet_box(restart=str(folder / "start")) + WATER + RUN
+        fill(place, 16)
+        ends_with_a_sentence(program, start + f"lbm monitor m every 2e-5 file {place}/m.csv superficial_velocity mass bed\nlbm run 1\n",
+                             folder, "monitor", ["lbm monitor m", "m.csv", "is the disk full"])
+        rows = (place / "m.csv").read_text()
+        expect(rows.endswith("\n") and len(columns(place / "m.csv")["time_s"]) > 20, f"the last row is not whole: {rows[-200:]}")
+        (place / "ballast").unlink()
+        for kind in ("velocity pressure solid_fraction", "grains contacts"):
+            text = start + f"lbm output o every 1e-4 file {place}/o.h5 {kind}\nlbm run 1\n"
+            if "grains" in kind:
+                (place / "o.h5").unlink(missing_ok=True)
+                text = text.replace(kind, "solid_fraction " + kind)
+            ends_with_a_sentence(program, text, folder, f"output of {kind}", ["file = ", "what was written before is whole"])
+            files = [place / "o.h5"] + ([place / "o_grains.h5"] if "grains" in kind else [])
+            for file in files:
+                look = f"import h5py; f = h5py.File('{file}'); print(sum(len(f[s]) > 0 for s in f))"
+                done = subprocess.run(["/usr/bin/python3", "-c", look], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+                expect(done.returncode == 0 and int(done.stdout) > 3, f"{file}: {done.stdout[-300:]}")
+
+
+def check_damaged(program, folder):
+    """Truncated, longer or changed: refused before LIGGGHTS reads it; the same for a restart file of LIGGGHTS alone."""
+    start = wet_box(restart="start") + WATER + RUN
+    program.must_run(start + "lbm run 1e-3\nlbm restart write bad\n", folder, "bad")
+    grains = folder / "bad" / "grains"
+    whole = grains.read_bytes()
+    read = wet_box(restart="bad.grains") + "run 0\n"
+    changed = bytearray(whole)
+    changed[len(whole) // 2] ^= 1
+    for damaged in (whole[:100], whole[:-1], whole[:len(whole) // 2], whole + b"\0", bytes(changed)):
+        grains.write_bytes(damaged)
+        ends_with_a_sentence(program, read, folder, "damaged", ["read_restart", "be whole"])
+    grains.write_bytes(whole)
+    program.must_run(read, folder, "mended")
+    (folder / "bad" / "fluid.h5").write_bytes((folder / "bad" / "fluid.h5").read_bytes()[:-100])
+    ends_with_a_sentence(program, start + "lbm restart read bad\nlbm run 1e-4\n", folder, "fluid", ["lbm restart read", "be whole"])
+    dry = (folder / "start").read_bytes()
+    for length in (0, 10, 200, len(dry) // 3, len(dry) - 8):
+        (folder / "short").write_bytes(dry[:length])
+        ends_with_a_sentence(program, wet_box(restart="short"), folder, "short", ["read_restart", "be a whole restart file"])
+    for name in ("/dev/null", "taken", "nowhere/state"):
+        (folder / "taken").write_text("mine")
+        ends_with_a_sentence(program, start + f"lbm run 1e-4\nlbm restart write {name}\n", folder, "taken", ["lbm restart write", name])
+        ends_with_a_sentence(program, start + f"lbm restart write {name} every 1e-4\nlbm run 1e-3\n", folder, "taken", [name])
+    expect((folder / "taken").read_text() == "mine" and not os.path.isfile("/dev/null"), "a file is gone")
+
+
+def check_killed(program, folder, kills):
+    """Killed at random instants while it saves every few steps: the state under the name is whole and of one step. Those that
+    are taken up run on."""
+    grid = f"{program.ranks} 1 1"
+    text = wet_box(processors=grid, restart="start") + WATER + RUN + "lbm restart write killed every 2e-5\nlbm run 1000\n"
+    (folder / "in.killed").write_text(text)
+    seen, instants = set(), random.Random(1)
+    for n in range(kills):
+        run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.killed", "-log", "none", "-echo", "none"],
+                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        before = os.stat(folder / "killed").st_mtime_ns if (folder / "killed").exists() else 0
+        end = time.monotonic() + 60
+        while time.monotonic() < end and (not (folder / "killed").exists() or os.stat(folder / "killed").st_mtime_ns == before):
+            time.sleep(0.01)
+        time.sleep(0.2 * instants.random())
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+        run.wait(timeout=60)
+        look = wet_box(processors=grid, restart="killed.grains") + WATER + RUN + "lbm restart read killed\nlbm run 1e-5\n"
+        program.must_run(look, folder, "look")
+        seen.add(os.readlink(folder / "killed"))
+    expect(kills < 8 or seen == {"killed.1", "killed.2"}, f"states of {seen} only")
+
+
+def main():
+    arguments = sys.argv[1:]
+    value = {name: arguments[arguments.index(name) + 1] for name in ("--suffuse", "--mpirun", "--ranks", "--kills") if name in arguments}
+    program = Program(value["--suffuse"], value["--mpirun"], int(value["--ranks"]))
+    kills = int(value.get("--kills", 10))
+    with scratch() as scratch_folder:
+        folder = pathlib.Path(scratch_folder)
+        Program(program.suffuse, program.mpirun, 1).must_run(wet_box(grains=6) + "write_restart start\n", folder)
+        mounts = can_mount(folder)
+        check_damaged(program, folder)
+        if mounts:
+            check_full_state(program, folder)
+            check_full_series(program, folder)
+        check_killed(program, folder, kills)
+    print(f"{program.ranks} ranks: whole after {kills} kills" + ("" if mounts else "; no full disk: mounting needs root"))
+
+
+if __name__ == "__main__":
+    main()
