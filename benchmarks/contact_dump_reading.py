@@ -108,7 +108,7 @@ def main():
             in_another_process(write_files, files, options.cells, options.megabytes, share, count)
             timed(["wc", "-l", *files])  # brings the files into the system's memory
             count_cpu, count_wall, _ = timed(["wc", "-l", *files])
-            cpu, wall, memory[share] = timed([options.analyse, "contacts", *files, "--split", "0.5e-3", "--output", f"{folder}/series.csv"])
+            cpu, wall, memory[share] = timed([options.analyse, "contacts", *files, "--split", "0.5e-3", "--output", f"{folder}/series.csv", "--overwrite"])
         megabytes = sum(path.stat().st_size for path in files) / 1e6
     print(f"{count.value} snapshots of {24 * options.cells ** 3} contacts, {megabytes:.0f} MB")
     print(f"suffuse-analyse contacts: {megabytes / cpu:.0f} MB/s of processor time ({megabytes / wall:.0f} MB/s by the clock)")

@@ -109,8 +109,8 @@ const std::map<std::string, CommandCreator>& our_commands() {
 suffuse::GrainLoop loop_in_use = suffuse::GrainLoop::vector;
 std::map<std::string, CommandCreator> added_commands;  // for `clear`
 
-/// Our neighbour lists and contact loop, under LIGGGHTS's names. Every class of LIGGGHTS reaches the lists through
-/// a reference to the pointer that is changed here.
+/// Our neighbour lists and contact loop, under LIGGGHTS's names. Every class of LIGGGHTS reaches the lists
+/// through a reference to the pointer that is changed here.
 void install_grain_loop(LAMMPS* lmp) {
   delete lmp->neighbor;
   lmp->neighbor = new NeighborBySize(lmp);
@@ -121,8 +121,8 @@ void install_grain_loop(LAMMPS* lmp) {
 
 }  // namespace
 
-/// The script's `clear` makes all of LIGGGHTS's parts anew, and would forget ours. It is no virtual function; this
-/// definition takes the place of the library's (which does the same but for the last line).
+/// The script's `clear` makes all of LIGGGHTS's parts anew, and would forget ours. It is no virtual function;
+/// this definition takes the place of the library's (which does the same but for the last line).
 void LAMMPS_NS::Input::clear() {
   if (narg > 0) error->all(FLERR, "Illegal clear command");
   lmp->destroy();

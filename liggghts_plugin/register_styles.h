@@ -16,8 +16,8 @@ enum class GrainLoop {
 };
 
 /// Adds our fixes, computes and commands to a LIGGGHTS instance, and puts our `run` in place of LIGGGHTS's
-/// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line; the script's `clear`
-/// does it again.
+/// (it runs LIGGGHTS's own and lets a fix end it early). Call once, before any script line; the script's
+/// `clear` does it again.
 void register_styles(LAMMPS_NS::LAMMPS* lmp, GrainLoop loop = GrainLoop::vector);
 
 /// Makes a command known that is defined elsewhere. It gets the words after its name.

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_verdict(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
+    suffuse::require_printed_output();
     return 0;
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
@@ -51,6 +52,8 @@ int main(int argc, char** argv) {
   } catch (const suffuse::UserError& problem) {
     return report(problem.what());
   } catch (const std::exception& failure) {
+    if (const std::string refusal = suffuse::refusal_of_the_machine(failure); !refusal.empty())
+      return report(refusal.c_str());
     report(fmt::format("internal: {}", failure.what()).c_str());
     return 2;
   }

@@ -59,13 +59,17 @@ int main(int argc, char** argv) {
     Study study = read_study(file);
     if (ranks > 0) study.ranks = ranks;
     if (settings.out.empty()) settings.out = "runs/" + std::filesystem::path(file).stem().string();
-    return run_study(study, settings);
+    const int code = run_study(study, settings);
+    suffuse::require_printed_output();
+    return code;
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
     return report(fmt::format("{}; see --help", problem.what()));
   } catch (const suffuse::UserError& problem) {
     return report(problem.what());
   } catch (const std::exception& failure) {
+    if (const std::string refusal = suffuse::refusal_of_the_machine(failure); !refusal.empty())
+      return report(refusal);
     report(fmt::format("internal: {}", failure.what()));
     return 2;
   }

@@ -9,6 +9,7 @@
 
 #include "commands/constriction_table.h"
 #include "commands/criteria_table.h"
+#include "commands/output_options.h"
 #include "suffuse/analysis/grain_snapshot.h"
 #include "suffuse/analysis/packing_constrictions.h"
 #include "suffuse/common/error.h"
@@ -26,6 +27,7 @@ using micromechanics::SizeDistribution;
 constexpr const char* kWho = "constriction";
 
 struct Options {
+  OutputOptions outputs;
   std::string grading, packing, output, distribution, prediction, discs;
   std::string fractions = "surface-area", pore = "inscribed";
   ConstrictionOptions analysis;
@@ -101,6 +103,7 @@ void check(Options& options) {
 
 void run(Options& options) {
   check(options);
+  options.outputs.require_new(kWho);
   micromechanics::ConstrictionLimits limits;
   micromechanics::StabilityLimits stability;
   set_limits(options.limits, kWho, stability, &limits);
@@ -182,11 +185,12 @@ void add_constriction(CLI::App& app) {
           "--merge-overlap", options->merge_overlap,
           "void spheres are one pore if they overlap by more than this share of the smaller diameter")
       ->capture_default_str();
-  command->add_option("--output", options->output, "CSV file with the criteria");
-  command->add_option("--distribution", options->distribution, "CSV file with the distributions");
-  command->add_option("--prediction", options->prediction,
-                      "CSV file with Dc35/d85, Z and alpha over the relative density");
-  command->add_option("--discs", options->discs, "CSV file with every constriction of the packing");
+  options->outputs.add(*command, "--output", options->output, "CSV file with the criteria");
+  options->outputs.add(*command, "--distribution", options->distribution, "CSV file with the distributions");
+  options->outputs.add(*command, "--prediction", options->prediction,
+                       "CSV file with Dc35/d85, Z and alpha over the relative density");
+  options->outputs.add(*command, "--discs", options->discs,
+                       "CSV file with every constriction of the packing");
   command->callback([options] { run(*options); });
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands/force_table.h"
+#include "commands/output_options.h"
 #include "commands/read_options.h"
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/record_table.h"
@@ -22,6 +23,7 @@ constexpr std::int64_t kLongSeries = 50'000'000;
 struct Options {
   ReadOptions read;
   SplitOption split;
+  OutputOptions outputs;
   std::string output, json, force_pdf, strong = "mean", axis = "z";
   double tolerance = -1;
   MeasureSettings measures;
@@ -84,6 +86,7 @@ void tell_settings(const Options& options, const Snapshot& first) {
 
 void run(Options& options) {
   check(options);
+  options.outputs.require_new(kWho);
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   std::optional<CsvWriter> csv, pdf;
   std::optional<JsonWriter> json;
@@ -138,10 +141,10 @@ void add_contacts(CLI::App& app) {
       "Contact network of every snapshot: Z, alpha, sliding, constraint ratio, fabric, forces, rattlers");
   options->read.add_to(*command);
   options->split.add_to(*command);
-  command->add_option("--output", options->output, "CSV file with all columns, a row a snapshot");
-  command->add_option("--json", options->json, "the same as JSON");
-  command->add_option("--force-pdf", options->force_pdf,
-                      "CSV file with the force distribution of every snapshot");
+  options->outputs.add(*command, "--output", options->output, "CSV file with all columns, a row a snapshot");
+  options->outputs.add(*command, "--json", options->json, "the same as JSON");
+  options->outputs.add(*command, "--force-pdf", options->force_pdf,
+                       "CSV file with the force distribution of every snapshot");
   command
       ->add_option("--force-bin", options->measures.force_bins.width, "width of its bins, of the mean force")
       ->capture_default_str();

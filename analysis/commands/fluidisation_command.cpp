@@ -11,6 +11,7 @@
 
 #include "commands/criteria_table.h"
 #include "commands/fluidisation_layers.h"
+#include "commands/output_options.h"
 #include "commands/result_rows.h"
 #include "suffuse/analysis/flow_record.h"
 #include "suffuse/common/error.h"
@@ -27,6 +28,7 @@ using namespace micromechanics;
 constexpr const char* kWho = "fluidisation";
 
 struct Options {
+  OutputOptions outputs;
   std::string file, grading, output, json;
   double grain_density = 2650;
   SeepageFluid fluid;
@@ -288,6 +290,7 @@ ResultRows rows_of(const Options& options, const Run& run, const NumberTable& ta
 
 void run_command(Options& options) {
   check(options);
+  options.outputs.require_new(kWho);
   const NumberTable table(options.file, kWho);
   const Run run = measured(options, table);
   const ResultRows rows = rows_of(options, run, table);
@@ -333,10 +336,10 @@ void add_fluidisation(CLI::App& app) {
   command->add_option(
       "--dumps", options->layers.files,
       "dumps of grains and contacts of the same run, patterns too: the contacts of its layers");
-  command->add_option("--measures", options->layers.measures,
-                      "CSV file: a row a snapshot and layer (needs --dumps)");
-  command->add_option("--distributions", options->layers.distributions,
-                      "CSV file: distributions of contacts a grain and of S_i (needs --dumps)");
+  options->outputs.add(*command, "--measures", options->layers.measures,
+                       "CSV file: a row a snapshot and layer (needs --dumps)");
+  options->outputs.add(*command, "--distributions", options->layers.distributions,
+                       "CSV file: distributions of contacts a grain and of S_i (needs --dumps)");
   command->add_option("--bounds", options->layers.bounds, "LOW HIGH of the layers, m, for the dumps")
       ->expected(2);
   command->add_option("--friction", options->layers.friction, "of the contacts in the dumps")
@@ -346,8 +349,8 @@ void add_fluidisation(CLI::App& app) {
   command->add_option("--viscosity", options->fluid.kinematic_viscosity, "kinematic, m2/s")
       ->capture_default_str();
   command->add_option("--gravity", options->fluid.gravity, "m/s2")->capture_default_str();
-  command->add_option("--output,--csv", options->output, "CSV file with the same");
-  command->add_option("--json", options->json, "JSON file with the same");
+  options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
+  options->outputs.add(*command, "--json", options->json, "JSON file with the same");
   command->callback([options] { run_command(*options); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "commands/criteria_table.h"
 #include "commands/grading_table.h"
+#include "commands/output_options.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -14,11 +15,13 @@ namespace {
 constexpr const char* kWho = "grading";
 
 struct Options {
+  OutputOptions outputs;
   std::string file, output, curve, shape;
   std::vector<std::string> limits;
 };
 
 void run(const Options& options) {
+  options.outputs.require_new(kWho);
   micromechanics::StabilityLimits limits;
   set_limits(options.limits, kWho, limits);
   const micromechanics::Grading grading = grading_of_file(options.file, kWho);
@@ -44,9 +47,10 @@ void add_grading(CLI::App& app) {
           "CSV file with a column of sizes (diameter_mm, sieve_mm, sieve_no, ...) and one of amounts "
           "(percent_finer, retained_mass_g, mass_fraction, ...); or a dump of grains (its last snapshot)")
       ->required();
-  command->add_option("--output", options->output, "CSV file with the criteria");
-  command->add_option("--curve", options->curve, "CSV file with the cumulative curve");
-  command->add_option("--shape", options->shape, "CSV file with Kenney and Lau's shape curve (H, F)");
+  options->outputs.add(*command, "--output", options->output, "CSV file with the criteria");
+  options->outputs.add(*command, "--curve", options->curve, "CSV file with the cumulative curve");
+  options->outputs.add(*command, "--shape", options->shape,
+                       "CSV file with Kenney and Lau's shape curve (H, F)");
   command->add_option("--limit", options->limits,
                       "another limit, name=value, such as kenney_lau=1.3; may be repeated");
   command->callback([options] { run(*options); });

@@ -9,6 +9,7 @@
 
 #include "commands/criteria_table.h"
 #include "commands/hydraulic_table.h"
+#include "commands/output_options.h"
 #include "suffuse/analysis/csv_file.h"
 
 namespace suffuse::analysis {
@@ -17,12 +18,14 @@ namespace {
 constexpr const char* kWho = "hydraulic";
 
 struct Options {
+  OutputOptions outputs;
   std::string file, output;
   HydraulicInput input;
   std::optional<double> alpha;
 };
 
 void run(Options& options) {
+  options.outputs.require_new(kWho);
   if (options.alpha) options.input.alphas = {{*options.alpha, ""}};
   check_hydraulic(options.input, kWho);
   const std::vector<HydraulicRow> rows = hydraulic_rows(options.input, grading_of_file(options.file, kWho));
@@ -53,7 +56,7 @@ void add_hydraulic(CLI::App& app) {
   command->add_option("--alpha", options->alpha,
                       "stress reduction factor of the fines, measured or by eq 4.8");
   options->input.add_to(*command);
-  command->add_option("--output", options->output, "CSV file with the same");
+  options->outputs.add(*command, "--output", options->output, "CSV file with the same");
   command->callback([options] { run(*options); });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "commands/output_options.h"
 #include "suffuse/analysis/contact_measures.h"
 #include "suffuse/analysis/record_table.h"
 #include "suffuse/analysis/sample_folder.h"
@@ -22,6 +23,7 @@ using micromechanics::Grading;
 enum class Table { table_4_1, table_5_1 };
 
 struct Options {
+  OutputOptions outputs;
   std::vector<std::string> folders{"."};
   std::string output;
 };
@@ -178,6 +180,7 @@ const ThesisRow* row_of(const std::vector<ThesisRow>& rows, const SampleFolder& 
 void run(const Options& options, Table table) {
   const std::string who = table == Table::table_4_1 ? "reproduce table-4-1" : "reproduce table-5-1";
   const std::vector<ThesisRow>& rows = table == Table::table_4_1 ? thesis_table_4_1() : thesis_table_5_1();
+  options.outputs.require_new(who);
   std::vector<Comparison> comparisons;
   for (const std::string& folder : find_sample_folders(options.folders, who)) {
     const SampleFolder sample = read_sample_folder(folder, who);
@@ -218,7 +221,7 @@ void add_table(CLI::App& parent, const char* name, const char* what, Table table
       ->add_option("folders", options->folders,
                    "folders of samples, or folders above them: all with a file sample.toml are taken")
       ->capture_default_str();
-  command->add_option("--output", options->output, "CSV file, a row a number");
+  options->outputs.add(*command, "--output", options->output, "CSV file, a row a number");
   command->callback([options, table] { run(*options, table); });
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <numbers>
 
+#include "commands/output_options.h"
 #include "commands/read_options.h"
 #include "commands/rose_table.h"
 #include "suffuse/analysis/figure_script.h"
@@ -24,6 +25,7 @@ constexpr const char* kWho = "rose";
 constexpr double kDegree = std::numbers::pi / 180;
 
 struct Options {
+  OutputOptions outputs;
   ReadOptions read;
   std::string plane = "xz", step = "last", output, fits, sphere, figure, sphere_figure;
   int bins = kOrientationBins, order = 4, cells = 500;
@@ -161,6 +163,7 @@ void check(const Options& options) {
 
 void run(Options& options) {
   check(options);
+  options.outputs.require_new(kWho);
   const SphericalGrid grid(options.cells);
   const Sums sums = gathered(options, grid);
   const std::vector<Rose> roses = roses_of(sums.plane, options.order);
@@ -189,14 +192,16 @@ void add_rose(CLI::App& app) {
   command->add_option("--bins", options->bins, "bins over 2 pi, even")->capture_default_str();
   command->add_option("--order", options->order, "highest harmonic of the fits, even; the thesis's is 2")
       ->capture_default_str();
-  command->add_option("--output", options->output, "CSV file of the rose and its fits, a row a bin");
-  command->add_option("--fits", options->fits, "CSV file of the amplitudes and directions");
-  command->add_option("--sphere", options->sphere,
-                      "CSV file of the spherical histogram, a row a cell of equal area");
+  options->outputs.add(*command, "--output", options->output,
+                       "CSV file of the rose and its fits, a row a bin");
+  options->outputs.add(*command, "--fits", options->fits, "CSV file of the amplitudes and directions");
+  options->outputs.add(*command, "--sphere", options->sphere,
+                       "CSV file of the spherical histogram, a row a cell of equal area");
   command->add_option("--cells", options->cells, "about how many cells the sphere has")
       ->capture_default_str();
-  command->add_option("--figure", options->figure, "figure of the rose (.png, .svg, .pdf)");
-  command->add_option("--sphere-figure", options->sphere_figure, "figure of the spherical histogram");
+  options->outputs.add(*command, "--figure", options->figure, "figure of the rose (.png, .svg, .pdf)");
+  options->outputs.add(*command, "--sphere-figure", options->sphere_figure,
+                       "figure of the spherical histogram");
   command->callback([options] { run(*options); });
 }
 

@@ -11,6 +11,7 @@
 #include "commands/constriction_table.h"
 #include "commands/criteria_table.h"
 #include "commands/fluidisation_command.h"
+#include "commands/output_options.h"
 #include "commands/read_options.h"
 #include "commands/verdict_report.h"
 #include "suffuse/analysis/flow_record.h"
@@ -30,6 +31,7 @@ constexpr const char* kWho = "verdict";
 constexpr double kLoosestGrains = 0.6;
 
 struct Options {
+  OutputOptions outputs;
   std::string grading, name, output, html, figures, flow;
   std::string fractions = "surface-area", pore = "inscribed";
   ReadOptions read;
@@ -136,6 +138,8 @@ std::optional<Snapshot> judged_snapshot(Options& options) {
   if (!found)
     throw_user_error(
         {kWho, "--sample", options.read.files.front(), "hold a snapshot of grains and contacts", ""});
+  if (const std::string notes = series->notes(); !notes.empty())
+    fmt::print(stderr, "suffuse-analyse: note: {}\n", notes);  // the report may go to the screen
   return snapshot;
 }
 
@@ -156,7 +160,8 @@ void find_porosity(const Options& options, const std::optional<Snapshot>& snapsh
     input.porosity_from = "of the sample's grains in its volume";
     if (*input.porosity > kLoosestGrains)
       input.porosity_from +=
-          ", more than grains at rest leave open: give `--volume` or `--porosity` if water stands above them";
+          ", more than grains at rest leave open: give `--bed`, `--volume` or `--porosity` if water stands "
+          "above them";
   }
 }
 
@@ -228,6 +233,7 @@ void keep_figures(const std::string& from, const std::string& to) {
 
 void run(Options& options) {
   check(options);
+  options.outputs.require_new(kWho);
   options.constriction.fractions = fraction_names().at(options.fractions);
   options.constriction.pore = pore_names().at(options.pore);
   const std::optional<Snapshot> snapshot = judged_snapshot(options);
@@ -292,10 +298,12 @@ void add_verdict(CLI::App& app) {
   command->add_option("--alpha", options->alpha,
                       "stress reduction factor of the fines, known from elsewhere");
   options->hydraulic.add_to(*command);
-  command->add_option("--output", options->output,
-                      "the report as Markdown; without --html too: on the screen");
-  command->add_option("--html", options->html, "the report as one HTML page with its figures in it");
-  command->add_option("--figures", options->figures, "folder for the figures (SVG, PNG) and their CSV files");
+  options->outputs.add(*command, "--output", options->output,
+                       "the report as Markdown; without --html too: on the screen");
+  options->outputs.add(*command, "--html", options->html,
+                       "the report as one HTML page with its figures in it");
+  options->outputs.add(*command, "--figures", options->figures,
+                       "folder for the figures (SVG, PNG) and their CSV files");
   command->add_flag("--no-figures", options->no_figures, "no figures: Python with matplotlib is not needed");
   command->callback([options] { run(*options); });
 }

@@ -14,6 +14,7 @@
 #include "suffuse/analysis/figure_script.h"
 #include "suffuse/analysis/flow_record.h"
 #include "suffuse/analysis/record_table.h"
+#include "suffuse/analysis/shell_word.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/directional_distribution.h"
 
@@ -68,7 +69,7 @@ std::vector<Drawing> grading_drawings(const VerdictInput& input, const VerdictFi
       {{Of::shape, "shape", "", "Kenney and Lau's shape curve, H against F, and its limit",
         "Kenney and Lau's shape curve; thick where it is searched. Stable above the line.", ""},
        "grading.py",
-       {"--shape", "shape.csv", "--names", input.name}});
+       {"--shape", "shape.csv", "--names=" + input.name}});
   return drawings;
 }
 
@@ -130,11 +131,6 @@ std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-/// An argument as a shell reads it.
-std::string shell_word(const std::string& word) {
-  return word.find(' ') == std::string::npos ? word : fmt::format("\"{}\"", word);
-}
-
 void draw(Drawing& drawing, const std::string& folder, bool png) {
   VerdictFigure& figure = drawing.figure;
   std::vector<std::string> words = drawing.words;
@@ -173,7 +169,7 @@ std::vector<VerdictFigure> draw_verdict_figures(const VerdictInput& input, const
          ""},
         "constriction.py",
         {}};
-    if (findings.analysis) boundaries.words = {"--prediction", "prediction.csv", "--names", input.name};
+    if (findings.analysis) boundaries.words = {"--prediction", "prediction.csv", "--names=" + input.name};
     if (measured) boundaries.words.insert(boundaries.words.end(), {"--measured", "sample.csv"});
     drawings.push_back(std::move(boundaries));
   }

@@ -62,11 +62,12 @@ class Looks:
 
     def legend(self):
         from matplotlib.lines import Line2D
+        from suffuse_style import plain
 
         entries = []
         for name, known, key in zip(self.variables, self.maps, ("color", "marker", "fillstyle")):
-            entries.append(Line2D([], [], linestyle="", label=name.replace("_", " ")))
-            entries += [Line2D([], [], **({"linestyle": "", "marker": "o", "color": "#606060", "label": f"  {value}"} | {key: look})) for value, look in known.items()]
+            entries.append(Line2D([], [], linestyle="", label=plain(name.replace("_", " "))))
+            entries += [Line2D([], [], **({"linestyle": "", "marker": "o", "color": "#606060", "label": f"  {plain(value)}"} | {key: look})) for value, look in known.items()]
         return entries
 
 
@@ -74,12 +75,13 @@ def label(axes, texts):
     """Writes (row, text) beside the points: right above, right below, left above or left below, where no other label stands; where
     all four are taken a point goes without."""
     import matplotlib.patheffects as effects
+    from suffuse_style import plain
 
     axes.figure.canvas.draw()  # places everything, so that labels have sizes
     taken = []
     for row, text in texts:
         for right, above in ((True, True), (True, False), (False, True), (False, False)):
-            note = axes.annotate(text, xy=(row["x"], row["y"]), xytext=(5 if right else -5, 4 if above else -4), textcoords="offset points",
+            note = axes.annotate(plain(text), xy=(row["x"], row["y"]), xytext=(5 if right else -5, 4 if above else -4), textcoords="offset points",
                                  fontsize=6.5, ha="left" if right else "right", va="bottom" if above else "top", annotation_clip=False, zorder=1.5,
                                  path_effects=[effects.withStroke(linewidth=2.5, foreground="white")])
             box = note.get_window_extent()
@@ -132,7 +134,7 @@ def draw(rows, options):
         axes.plot(row["x"], row["y"], zorder=2, **looks.of(row))
         if row["front"] == "1":
             axes.plot(row["x"], row["y"], linestyle="", marker="o", markersize=9, fillstyle="none", color="black", markeredgewidth=0.7, zorder=2)
-    axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=options.title or pathlib.Path(options.study).parent.name)
+    axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=style.plain(options.title or pathlib.Path(options.study).parent.name))
     ends = [row["x"] for row in runs + failed]
     low, high = min(ends), max(ends)
     span = max(high / low, 2)  # a single run has none

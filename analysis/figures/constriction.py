@@ -36,12 +36,12 @@ def draw_distribution(series, grading, options):
                                linewidth=0, label="three to four grains, by surface area")
         axes.plot(micrometres(f"at_density_by_{key}_m"), percent, color=colour, label=f"at the relative density, by {name}")
     if "packing_m" in series:
-        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label=options.packing_name)
+        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label=style.plain(options.packing_name))
     for path, colour, line in zip(options.others, ("purple", "sky"), ("--", "-.")):
         other = TimeSeries(path)
         other.require("packing_m", "percent_finer")
         axes.plot([1e6 * size for size in other["packing_m"]], other["percent_finer"], color=style.COLOURS[colour], linestyle=line,
-                  label=options.other_names.pop(0) if options.other_names else pathlib.Path(path).stem)
+                  label=style.plain(options.other_names.pop(0) if options.other_names else pathlib.Path(path).stem))
     if grading:
         axes.plot([1e6 * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
     axes.axhline(35, **style.REFERENCE)
@@ -60,7 +60,7 @@ def draw_prediction(predictions, names, measured, options):
 
     figure, axes = pyplot.subplots(figsize=(style.width_of(options), 3.6))
     for series, name in zip(predictions, names):
-        line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{name}, eqs 4.7, 4.8")
+        line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{style.plain(name)}, eqs 4.7, 4.8")
         ends = [(series["coordination_number"][i], series["stress_reduction"][i]) for i in (0, -1)]
         if max(abs(a - b) for a, b in zip(*ends)) < 0.3:  # no room for a name at either end
             continue
@@ -69,7 +69,7 @@ def draw_prediction(predictions, names, measured, options):
                           textcoords="offset points", fontsize=7, color=line.get_color())
     for path, series in measured:
         axes.plot(series.last("coordination_number"), series.last("alpha_pair_halves"), linestyle="", marker="D", markersize=5,
-                  label=f"{pathlib.Path(path).stem}, measured")
+                  label=f"{style.plain(pathlib.Path(path).stem)}, measured")
     axes.axvline(1, **style.REFERENCE)
     axes.axhline(0.5, **style.REFERENCE)
     axes.annotate("Z = 1", xy=(1, 1), xycoords=("data", "axes fraction"), xytext=(3, -8), textcoords="offset points", fontsize=8,

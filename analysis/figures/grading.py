@@ -33,6 +33,7 @@ def draw(curves, shapes, names, options):
 
     panels = bool(curves) + bool(shapes)
     figure, axes = pyplot.subplots(panels, 1, figsize=(style.width_of(options), 3.0 * panels), squeeze=False)
+    names = [style.plain(name) for name in names]
     for series, name in zip(curves, names):
         draw_curve(axes[0, 0], series, name)
     if curves:

@@ -54,7 +54,7 @@ def draw(runs, labels, output):
             panel.legend(fontsize=7)
     if len(runs) > 1:
         for which, name in enumerate(labels):
-            axes[0].plot([], [], color=colours[which % len(colours)], label=name)
+            axes[0].plot([], [], color=colours[which % len(colours)], label=style.plain(name))
         axes[0].legend(fontsize=7)
     axes[-1].set_xlabel("axial strain (%)")
     figure.align_ylabels(axes)

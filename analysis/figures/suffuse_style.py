@@ -35,6 +35,11 @@ plt.rcParams.update({
 COLUMN_WIDTH = 5.2  # inches; a figure this wide reads well in a page of text
 
 
+def plain(text):
+    """A user's text as it stands: matplotlib takes what is between two dollars for a formula."""
+    return text.replace("$", r"\$")
+
+
 def width_of(options):
     """Of the figure, inches: what --width says, or the column's. 4.2 reads well on a phone too."""
     return options.width or COLUMN_WIDTH

@@ -34,6 +34,12 @@ bool is_short(double value) {
 /// Contacts that are looked at to tell how many digits a dump has.
 constexpr std::size_t kSampleOfDigits = 30;
 
+std::size_t rows_to_expect(DumpChain& chain) {
+  const TextInput& input = chain.file().input();
+  return plausible_rows(chain.header().rows, input.bytes(), chain.header().columns.size(),
+                        input.is_compressed());
+}
+
 Vec3 period_of(const DumpHeader& header) {
   Vec3 period = Vec3::Zero();
   for (int axis = 0; axis < 3; ++axis)
@@ -119,6 +125,9 @@ bool DumpSeries::next(Snapshot& snapshot) {
   snapshot.time.reset();
   read_grains(snapshot.packing);
   read_contacts(snapshot);
+  if (const std::string problem = problem_of_contacts(snapshot.packing, period_of(contacts_.header()));
+      !problem.empty())
+    contacts_.file().complain(fmt::format("at step {} {}", snapshot.step, problem), "the file is damaged");
   sample_.restrict_to_region(snapshot.packing);
   return true;
 }
@@ -133,12 +142,12 @@ void DumpSeries::read_grains(Packing& packing) {
                             "dump id radius x y z …, or name it: --column radius=…");
   grains_have_positions_ = plan.has_vector(x);
   packing.grains.clear();
-  packing.grains.reserve(static_cast<std::size_t>(header.rows));
+  packing.grains.reserve(rows_to_expect(grains_));
   packing.box_low = header.box_low;
   packing.box_high = header.box_high;
   double largest = 0;
   grains_.file().rows(plan.place_of_column, grain_place::count, [&](std::span<const double> row) {
-    if (row[id] < 1 || row[id] != std::floor(row[id]))
+    if (!identifier(row[id]))
       grains_.file().complain(fmt::format("id = {} is no identifier of a grain", row[id]),
                               "is the column right?");
     largest = std::max(largest, row[id]);
@@ -150,7 +159,7 @@ void DumpSeries::read_grains(Packing& packing) {
   const std::string problem = problem_of_grains(packing);
   if (!problem.empty())
     grains_.file().complain(fmt::format("at step {} {}", header.step, problem), "lengths are in metres");
-  if (largest > std::max(kLargestIdFloor, kLargestIdPerGrain * static_cast<double>(header.rows)))
+  if (largest > std::max(kLargestIdFloor, kLargestIdPerGrain * static_cast<double>(packing.grains.size())))
     grains_.file().complain(fmt::format("id = {} is no identifier of a grain", largest),
                             "is the column right?");
   index_of_id_.assign(static_cast<std::size_t>(largest) + 1, -1);
@@ -165,8 +174,7 @@ void DumpSeries::read_grains(Packing& packing) {
 }
 
 int DumpSeries::grain_of(double id) {
-  const bool whole = id >= 1 && id == std::floor(id);
-  if (!whole)
+  if (!identifier(id))
     contacts_.file().complain(
         fmt::format("{} stands where a grain's identifier is expected", id),
         "say which words the script's compute pair/gran/local has: --pair-values pos id force …");
@@ -222,7 +230,7 @@ void DumpSeries::read_contacts(Snapshot& snapshot) {
   need((plan.has_vector(x1) && plan.has_vector(x2)) || grains_have_positions_, "positions");
   snapshot.six_digits = true;
   snapshot.packing.contacts.clear();
-  snapshot.packing.contacts.reserve(static_cast<std::size_t>(header.rows));
+  snapshot.packing.contacts.reserve(rows_to_expect(contacts_));
   contacts_.file().rows(plan.place_of_column, contact_place::count, [&](std::span<const double> row) {
     snapshot.packing.contacts.push_back(contact_of(row, plan, snapshot.packing));
     if (snapshot.packing.contacts.size() <= kSampleOfDigits)

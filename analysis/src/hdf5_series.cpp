@@ -92,7 +92,13 @@ std::vector<double> Hdf5Series::numbers(const std::string& dataset, std::size_t 
   const int dimensions = H5Sget_simple_extent_ndims(space);
   const bool right_shape = dimensions == (columns == 1 ? 1 : 2) &&
                            H5Sget_simple_extent_dims(space, extents, nullptr) >= 0 && extents[1] == columns;
-  std::vector<double> values(right_shape ? extents[0] * columns : 0);
+  // An array can claim any extent; what it may fill is bounded by what is stored (plausible_rows).
+  const auto stored =
+      std::min(static_cast<std::int64_t>(H5Dget_storage_size(id)), static_cast<std::int64_t>(bytes_));
+  const bool is_there =
+      extents[0] < (hsize_t{1} << 48) &&
+      plausible_rows(static_cast<std::int64_t>(extents[0]), stored, columns, true, 1) == extents[0];
+  std::vector<double> values(right_shape && is_there ? extents[0] * columns : 0);
   const herr_t status =
       values.empty() ? 0 : H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   H5Sclose(space);
@@ -100,6 +106,9 @@ std::vector<double> Hdf5Series::numbers(const std::string& dataset, std::size_t 
   if (!right_shape)
     complain(fmt::format("{} has not {} numbers a row", dataset, columns),
              "see the layout in docs/analysis/suffuse-analyse.md");
+  if (!is_there)
+    complain(fmt::format("{} claims {} rows, but {} bytes of it are stored", dataset, extents[0], stored),
+             "is the file whole?");
   if (status < 0) complain(dataset + " cannot be read", "is the file whole?");
   for (const double value : values)
     if (!std::isfinite(value))
@@ -131,6 +140,8 @@ bool Hdf5Series::next(Snapshot& snapshot) {
   const std::string problem = problem_of_grains(snapshot.packing);
   if (!problem.empty()) complain(problem, "lengths are in metres");
   read_contacts(snapshot.packing, period);
+  if (const std::string wrong = problem_of_contacts(snapshot.packing, period); !wrong.empty())
+    complain(wrong, "the file is damaged");
   sample_.restrict_to_region(snapshot.packing);
   return true;
 }
@@ -154,14 +165,19 @@ std::array<bool, 3> Hdf5Series::read_box(Packing& packing) const {
   return {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0};
 }
 
+std::int64_t Hdf5Series::identifier_of(double value) const {
+  if (const auto id = identifier(value)) return *id;
+  complain(fmt::format("{} is no identifier of a grain", value), "identifiers are whole numbers >= 1");
+}
+
 void Hdf5Series::read_grains(Packing& packing) const {
   const std::vector<double> id = numbers("grains/id", 1), radius = numbers("grains/radius", 1),
                             position = numbers("grains/position", 3);
   if (radius.size() != id.size() || position.size() != 3 * id.size())
     complain("the arrays of the grains have different lengths", "is the file whole?");
   for (std::size_t i = 0; i < id.size(); ++i)
-    packing.grains.push_back({static_cast<std::int64_t>(id[i]), radius[i],
-                              Vec3(position[3 * i], position[3 * i + 1], position[3 * i + 2])});
+    packing.grains.push_back(
+        {identifier_of(id[i]), radius[i], Vec3(position[3 * i], position[3 * i + 1], position[3 * i + 2])});
 }
 
 void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
@@ -181,7 +197,7 @@ void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
     if (!index.emplace(packing.grains[i].id, static_cast<int>(i)).second)
       complain(fmt::format("grain {} is there twice", packing.grains[i].id), "is the file whole?");
   const auto grain = [&](double id) {
-    const auto found = index.find(static_cast<std::int64_t>(id));
+    const auto found = index.find(identifier_of(id));
     if (found == index.end())
       complain(fmt::format("a contact names grain {}, which is not there", id), "write all grains");
     return found->second;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "suffuse/micromechanics/coordination.h"
 
@@ -90,6 +92,89 @@ std::string problem_of_grains(const micromechanics::Packing& packing) {
         "shrink-wrapped box: say --bed)",
         solids, packing.volume);
   return {};
+}
+
+namespace {
+
+using micromechanics::Contact;
+using micromechanics::Packing;
+
+constexpr double kSameBranch = 1e-6;    // of the sum of the radii
+constexpr double kDeflateLimit = 1032;  // bytes that one byte can stand for
+
+bool is_whole_period(const Vec3& branch, const Vec3& period, double reach) {
+  if (branch.norm() < kNearest * reach) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double periods = period[axis] > 0 ? std::round(branch[axis] / period[axis]) : 0;
+    if (std::abs(branch[axis] - periods * period[axis]) > kSameBranch * reach) return false;
+  }
+  return true;
+}
+
+std::uint64_t pair_key(const Contact& contact) {
+  const auto low = static_cast<std::uint64_t>(std::min(contact.first, contact.second));
+  const auto high = static_cast<std::uint64_t>(std::max(contact.first, contact.second));
+  return low << 32 | high;
+}
+
+/// Are two contacts of one pair the same, seen from either grain?
+bool is_same(const Packing& packing, const Contact& a, const Contact& b) {
+  const double sign = a.first == b.first ? 1 : -1;
+  const double reach = first_grain(packing, a).radius + second_radius(packing, a);
+  if (a.first == a.second)  // an image: either of its two sides
+    return std::min((a.branch - b.branch).norm(), (a.branch + b.branch).norm()) < kSameBranch * reach;
+  return (a.branch - sign * b.branch).norm() < kSameBranch * reach;
+}
+
+/// Keys of pairs that are listed more than once; they alone are looked at more closely.
+std::vector<std::uint64_t> repeated_pairs(const Packing& packing) {
+  std::vector<std::uint64_t> keys, repeated;
+  keys.reserve(packing.contacts.size());
+  for (const Contact& contact : packing.contacts) keys.push_back(pair_key(contact));
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t k = 1; k < keys.size(); ++k)
+    if (keys[k] == keys[k - 1] && (repeated.empty() || repeated.back() != keys[k]))
+      repeated.push_back(keys[k]);
+  return repeated;
+}
+
+}  // namespace
+
+std::string problem_of_contacts(const Packing& packing, const Vec3& period) {
+  const auto told = [&](const Contact& contact) {
+    return fmt::format("the contact of grains {} and {}", first_grain(packing, contact).id,
+                       second_id(packing, contact));
+  };
+  for (const Contact& contact : packing.contacts) {
+    if (contact.friction < 0 || contact.friction_limit < 0 || contact.spring_force < 0)
+      return told(contact) + " has a negative friction";
+    const double reach = first_grain(packing, contact).radius + second_radius(packing, contact);
+    if (contact.first == contact.second && !is_whole_period(contact.branch, period, reach))
+      return fmt::format("grain {} is in contact with itself", first_grain(packing, contact).id);
+  }
+  const std::vector<std::uint64_t> repeated = repeated_pairs(packing);
+  if (repeated.empty()) return {};
+  std::map<std::uint64_t, std::vector<const Contact*>> of_pair;
+  for (const Contact& contact : packing.contacts)
+    if (const auto key = pair_key(contact); std::binary_search(repeated.begin(), repeated.end(), key)) {
+      std::vector<const Contact*>& known = of_pair[key];
+      for (const Contact* other : known)
+        if (is_same(packing, contact, *other)) return told(contact) + " is there twice";
+      known.push_back(&contact);
+    }
+  return {};
+}
+
+std::size_t plausible_rows(std::int64_t claimed, std::int64_t bytes, std::size_t columns, bool compressed,
+                           std::size_t least) {
+  const double most = static_cast<double>(bytes) * (compressed ? kDeflateLimit : 1) /
+                      static_cast<double>(std::max<std::size_t>(columns, 1) * least);
+  return static_cast<std::size_t>(std::min(static_cast<double>(claimed), most));
+}
+
+std::optional<std::int64_t> identifier(double value) {
+  if (!(value >= 1 && value <= 9007199254740992.0) || value != std::floor(value)) return std::nullopt;
+  return static_cast<std::int64_t>(value);
 }
 
 }  // namespace suffuse::analysis

@@ -12,6 +12,7 @@
 #include "suffuse/analysis/figure_script.h"
 #include "suffuse/analysis/project_files.h"
 #include "suffuse/analysis/script_variables.h"
+#include "suffuse/analysis/shell_word.h"
 #include "suffuse/analysis/timed_process.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
@@ -42,16 +43,6 @@ std::vector<std::string> launcher(int ranks) {
     if (files::is_regular_file(above / "scripts/mpirun"))
       return {(above / "scripts/mpirun").string(), std::to_string(ranks)};
   return {"mpirun", "-np", std::to_string(ranks)};
-}
-
-/// A text as a shell takes it.
-std::string quoted(const std::string& word) {
-  if (word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._+-/=,:") ==
-      word.npos)
-    return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + '\'';
 }
 
 class Runner {
@@ -142,8 +133,8 @@ class Runner {
   }
 
   static void print_command(const std::string& folder, const std::vector<std::string>& words) {
-    fmt::print("mkdir -p {0} && cd {0} &&", quoted(folder));
-    for (const std::string& word : words) fmt::print(" {}", quoted(word));
+    fmt::print("mkdir -p {0} && cd {0} &&", shell_word(folder));
+    for (const std::string& word : words) fmt::print(" {}", shell_word(word));
     fmt::print("\n");
   }
 

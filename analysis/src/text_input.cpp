@@ -33,9 +33,10 @@ struct TextInput::Source {
 TextInput::TextInput(std::string path, std::string who)
     : path_(std::move(path)), who_(std::move(who)), source_(std::make_unique<Source>()), buffer_(2 * kBlock) {
   source_->descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
-  if (source_->descriptor < 0 || std::filesystem::is_directory(path_))
-    throw_user_error({who_, "file", path_, "be readable", "check the name and the folder"});
   std::error_code ignored;  // a pipe has no size
+  if (source_->descriptor < 0 || std::filesystem::is_directory(path_, ignored))
+    throw_user_error({who_, "file", path_, "be readable",
+                      source_->descriptor < 0 ? std::strerror(errno) : "this is a folder"});
   const auto size = std::filesystem::file_size(path_, ignored);
   bytes_ = ignored ? 0 : static_cast<std::int64_t>(size);
   unsigned char magic[2] = {};
@@ -91,6 +92,10 @@ bool TextInput::next_line(std::string_view& line) {
   begin_ = newline != nullptr ? stop + 1 : end_;
   ++line_number_;
   return true;
+}
+
+bool TextInput::is_compressed() const {
+  return source_->gzip != nullptr;
 }
 
 std::int64_t TextInput::bytes_read() const {

@@ -1,9 +1,11 @@
 #include "suffuse/common/safe_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -22,11 +24,20 @@ void wait_for_disk(const std::string& path, const std::string& who) {
 
 SafeFile::SafeFile(std::string path, std::string who)
     : path_(std::move(path)), part_(path_ + ".part"), who_(std::move(who)) {
-  if (std::filesystem::is_directory(path_))
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path_, problem);
+  if (status.type() == std::filesystem::file_type::none)
+    throw_user_error({who_, "file", path_, "be a name that can be looked up", problem.message()});
+  if (std::filesystem::is_directory(status))
     throw_user_error({who_, "file", path_, "be a file", "this is a folder; add a name"});
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw_user_error(
+        {who_, "file", path_, "be a regular file", "a device or a pipe would be replaced by it"});
+  errno = 0;
   stream_.open(part_, std::ios::binary | std::ios::trunc);
   if (!stream_)
-    throw_user_error({who_, "file", path_, "be writable", "check that the folder exists and is yours"});
+    throw_user_error({who_, "file", path_, "be writable",
+                      fmt::format("check that the folder exists and is yours ({})", std::strerror(errno))});
 }
 
 SafeFile::~SafeFile() {
@@ -46,7 +57,8 @@ void SafeFile::commit() {
   if (stream_) wait_for_disk(part_, who_);
   if (stream_) std::filesystem::rename(part_, path_, problem);
   if (!stream_ || problem)
-    throw_user_error({who_, "file", path_, "take what is written", "is the disk full?"});
+    throw_user_error({who_, "file", path_, "take what is written",
+                      problem ? problem.message() : std::string("is the disk full?")});
   committed_ = true;
 }
 

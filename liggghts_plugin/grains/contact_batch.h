@@ -15,8 +15,8 @@ struct alignas(64) ContactBatch {
   double spin_first[3][kLanes], radius_first[kLanes], spin_second[3][kLanes], radius_second[kLanes];
   double spring[3][kLanes];
   // Material, one value a lane; filled once if there is one material.
-  double normal_stiffness[kLanes], tangential_stiffness[kLanes], normal_damping[kLanes], tangential_damping[kLanes],
-      friction[kLanes], rolling_friction[kLanes];
+  double normal_stiffness[kLanes], tangential_stiffness[kLanes], normal_damping[kLanes],
+      tangential_damping[kLanes], friction[kLanes], rolling_friction[kLanes];
   // hooke: k_n, which takes a power.
   double linear_stiffness[kLanes];
   // Result: force on the first grain, moment of the tangential force for an arm of one, arms, rolling torque.
@@ -33,7 +33,8 @@ struct Stiffness {
 
 struct HertzLaw {
   static constexpr bool needs_power = false;
-  [[gnu::always_inline]] static Stiffness of(const ContactBatch& b, int lane, double overlap, const ContactLaw&) {
+  [[gnu::always_inline]] static Stiffness of(const ContactBatch& b, int lane, double overlap,
+                                             const ContactLaw&) {
     const double E = b.normal_stiffness[lane], G = b.tangential_stiffness[lane];
     const double root =
         __builtin_sqrt(b.radius_first[lane] * b.radius_second[lane] / b.radii[lane] * overlap);
@@ -48,7 +49,8 @@ struct HookeLaw {
   [[gnu::always_inline]] static Stiffness of(const ContactBatch& b, int lane, double, const ContactLaw&) {
     const double k = b.linear_stiffness[lane];
     const double root = __builtin_sqrt(k / b.inverse_mass[lane]);
-    return {k, k * b.tangential_stiffness[lane], b.normal_damping[lane] * root, b.tangential_damping[lane] * root};
+    return {k, k * b.tangential_stiffness[lane], b.normal_damping[lane] * root,
+            b.tangential_damping[lane] * root};
   }
 };
 
@@ -83,7 +85,8 @@ template <class Normal, TangentialLaw tangential, RollingLaw rolling, bool half_
     double Fn = k.normal * overlap - k.normal_damping * vn;
     Fn = Fn < least_force ? least_force : Fn;
 
-    const double arm_first = b.radius_first[c] - 0.5 * overlap, arm_second = b.radius_second[c] - 0.5 * overlap;
+    const double arm_first = b.radius_first[c] - 0.5 * overlap,
+                 arm_second = b.radius_second[c] - 0.5 * overlap;
     double Tx = 0, Ty = 0, Tz = 0;  // tangential force
     if (tangential != TangentialLaw::off) {
       const double wx = arm_first * b.spin_first[0][c] + arm_second * b.spin_second[0][c];
@@ -126,13 +129,15 @@ template <class Normal, TangentialLaw tangential, RollingLaw rolling, bool half_
       }
     }
     b.force[0][c] = Fn * nx + Tx, b.force[1][c] = Fn * ny + Ty, b.force[2][c] = Fn * nz + Tz;
-    b.moment[0][c] = ny * Tz - nz * Ty, b.moment[1][c] = nz * Tx - nx * Tz, b.moment[2][c] = nx * Ty - ny * Tx;
+    b.moment[0][c] = ny * Tz - nz * Ty, b.moment[1][c] = nz * Tx - nx * Tz,
+    b.moment[2][c] = nx * Ty - ny * Tx;
     b.arm_first[c] = arm_first, b.arm_second[c] = arm_second;
     if (rolling == RollingLaw::cdt) {
       double rx = b.spin_first[0][c] - b.spin_second[0][c], ry = b.spin_first[1][c] - b.spin_second[1][c],
              rz = b.spin_first[2][c] - b.spin_second[2][c];
       const double spin = __builtin_sqrt(rx * rx + ry * ry + rz * rz);
-      const double size = b.rolling_friction[c] * k.normal * overlap * b.radius_first[c] * b.radius_second[c] / b.radii[c];
+      const double size =
+          b.rolling_friction[c] * k.normal * overlap * b.radius_first[c] * b.radius_second[c] / b.radii[c];
       const double factor = spin > 0 ? size / spin : 0;
       rx *= factor, ry *= factor, rz *= factor;
       const double along = torsion * (rx * nx + ry * ny + rz * nz);

@@ -35,14 +35,16 @@ constexpr int kBlock = 512;  // candidates that are searched at a time
   a = __builtin_shufflevector(p, r, 0, 1, 4, 5), b = __builtin_shufflevector(q, s, 0, 1, 4, 5);
   c = __builtin_shufflevector(p, r, 2, 3, 6, 7), d = __builtin_shufflevector(q, s, 2, 3, 6, 7);
 }
-/// First minus second, but for the last lane, which is their sum: (branch, sum of radii), (velocity, sum of 1/m).
+/// First minus second, but for the last lane, which is their sum: (branch, sum of radii), (velocity, sum of
+/// 1/m).
 [[gnu::always_inline]] inline Four relative(const Quad& first, const Quad& second) {
   constexpr Four signs{1, 1, 1, -1};
   return load(first) - signs * load(second);
 }
 
 /// The places within a block of candidates that touch; returns how many.
-int touching_in(const CandidatePairs& pairs, const Quad* position, std::size_t start, int count, int* places) {
+int touching_in(const CandidatePairs& pairs, const Quad* position, std::size_t start, int count,
+                int* places) {
   int found = 0, k = 0;
   const int* first = pairs.first + start;
   const int* second = pairs.second + start;
@@ -152,7 +154,8 @@ class Pass {
   /// Lanes beyond the batch's contacts repeat the first one, so that their arithmetic is harmless.
   void evaluate(int contacts) {
     for (int c = contacts; c < kLanes; ++c) {
-      batch_.first[c] = batch_.first[0], batch_.second[c] = batch_.second[0], batch_.motion[c] = batch_.motion[0];
+      batch_.first[c] = batch_.first[0], batch_.second[c] = batch_.second[0],
+      batch_.motion[c] = batch_.motion[0];
       batch_.spring_index[c] = batch_.spring_index[0];
     }
     gather();
@@ -175,10 +178,10 @@ class Pass {
       z = relative(grains_.velocity[i[2]], grains_.velocity[m[2]]);
       w = relative(grains_.velocity[i[3]], grains_.velocity[m[3]]);
       keep(x, y, z, w, b.velocity, b.inverse_mass, c);
-      keep(load(grains_.spin[i[0]]), load(grains_.spin[i[1]]), load(grains_.spin[i[2]]), load(grains_.spin[i[3]]),
-           b.spin_first, b.radius_first, c);
-      keep(load(grains_.spin[m[0]]), load(grains_.spin[m[1]]), load(grains_.spin[m[2]]), load(grains_.spin[m[3]]),
-           b.spin_second, b.radius_second, c);
+      keep(load(grains_.spin[i[0]]), load(grains_.spin[i[1]]), load(grains_.spin[i[2]]),
+           load(grains_.spin[i[3]]), b.spin_first, b.radius_first, c);
+      keep(load(grains_.spin[m[0]]), load(grains_.spin[m[1]]), load(grains_.spin[m[2]]),
+           load(grains_.spin[m[3]]), b.spin_second, b.radius_second, c);
       if (settings_.law.tangential == TangentialLaw::history) gather_springs(c);
     }
     if (settings_.law.materials > 1)
@@ -195,7 +198,8 @@ class Pass {
 
   void gather_springs(int c) {
     const std::uint32_t* s = batch_.spring_index + c;
-    Four x = load(springs_[s[0]]), y = load(springs_[s[1]]), z = load(springs_[s[2]]), w = load(springs_[s[3]]);
+    Four x = load(springs_[s[0]]), y = load(springs_[s[1]]), z = load(springs_[s[2]]),
+         w = load(springs_[s[3]]);
     transpose(x, y, z, w);
     if (settings_.drop_lost_springs) {
       const double before = settings_.pass_number - 1;
@@ -209,8 +213,8 @@ class Pass {
   void linear_stiffness() {
     const double V = settings_.law.characteristic_velocity;
     for (int c = 0; c < kLanes; ++c) {
-      const double root =
-          __builtin_sqrt(batch_.radius_first[c] * batch_.radius_second[c] / batch_.radii[c]) * batch_.normal_stiffness[c];
+      const double root = __builtin_sqrt(batch_.radius_first[c] * batch_.radius_second[c] / batch_.radii[c]) *
+                          batch_.normal_stiffness[c];
       batch_.linear_stiffness[c] =
           16. / 15 * root * __builtin_pow(15 * V * V / (16 * root * batch_.inverse_mass[c]), 0.2);
     }
@@ -218,7 +222,8 @@ class Pass {
 
   void scatter(int contacts) {
     if (output_.loads != nullptr) add_loads(contacts);
-    if (settings_.law.tangential == TangentialLaw::history && settings_.advance_springs) keep_springs(contacts);
+    if (settings_.law.tangential == TangentialLaw::history && settings_.advance_springs)
+      keep_springs(contacts);
     if (output_.virial != nullptr || output_.grain_virial != nullptr) add_virial(contacts);
     if (output_.note != nullptr) tell_notes(contacts);
   }
@@ -226,9 +231,11 @@ class Pass {
   void add_loads(int contacts) {
     const bool rolls = settings_.law.rolling == RollingLaw::cdt;
     for (int c = 0; c < contacts; c += 4) {
-      Four force[4] = {lanes(batch_.force[0] + c), lanes(batch_.force[1] + c), lanes(batch_.force[2] + c), Four{}};
+      Four force[4] = {lanes(batch_.force[0] + c), lanes(batch_.force[1] + c), lanes(batch_.force[2] + c),
+                       Four{}};
       transpose(force[0], force[1], force[2], force[3]);
-      Four moment[4] = {lanes(batch_.moment[0] + c), lanes(batch_.moment[1] + c), lanes(batch_.moment[2] + c), Four{}};
+      Four moment[4] = {lanes(batch_.moment[0] + c), lanes(batch_.moment[1] + c), lanes(batch_.moment[2] + c),
+                        Four{}};
       transpose(moment[0], moment[1], moment[2], moment[3]);
       Four roll[4]{};
       if (rolls) {
@@ -305,8 +312,8 @@ class Pass {
 
 }  // namespace
 
-std::size_t contact_pass(const CandidatePairs& candidates, const GrainArrays& grains, const PassSettings& settings,
-                         Quad* springs, const PassOutput& output) {
+std::size_t contact_pass(const CandidatePairs& candidates, const GrainArrays& grains,
+                         const PassSettings& settings, Quad* springs, const PassOutput& output) {
   return Pass(grains, settings, springs, output).run(candidates);
 }
 

@@ -4,13 +4,13 @@
 
 namespace suffuse::grains {
 
-/// One entry point for each instruction set, defined by compiling contact_kernels.cpp for it: see `contact_pass`.
-/// These files are compiled for wide instruction sets, so nothing they call may be an inline function that others
-/// share.
-#define SUFFUSE_DECLARE_CONTACTS(instruction_set)                                                      \
-  namespace instruction_set {                                                                          \
-  std::size_t contact_pass(const CandidatePairs& candidates, const GrainArrays& grains,                \
-                           const PassSettings& settings, Quad* springs, const PassOutput& output);     \
+/// One entry point for each instruction set, defined by compiling contact_kernels.cpp for it: see
+/// `contact_pass`. These files are compiled for wide instruction sets, so nothing they call may be an inline
+/// function that others share.
+#define SUFFUSE_DECLARE_CONTACTS(instruction_set)                                                  \
+  namespace instruction_set {                                                                      \
+  std::size_t contact_pass(const CandidatePairs& candidates, const GrainArrays& grains,            \
+                           const PassSettings& settings, Quad* springs, const PassOutput& output); \
   }
 SUFFUSE_DECLARE_CONTACTS(portable)
 SUFFUSE_DECLARE_CONTACTS(avx2)

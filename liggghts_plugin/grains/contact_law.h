@@ -2,8 +2,8 @@
 
 /// The contact laws of LIGGGHTS's granular pair style that the vectorised pass computes.
 ///
-/// Formulas and names of coefficients are those of LIGGGHTS 3.8 (`pair_style gran model ...` and its documentation of
-/// the models); all quantities in SI.
+/// Formulas and names of coefficients are those of LIGGGHTS 3.8 (`pair_style gran model ...` and its
+/// documentation of the models); all quantities in SI.
 
 namespace suffuse::grains {
 
@@ -46,9 +46,9 @@ struct ContactLaw {
   NormalLaw normal = NormalLaw::hertz;
   TangentialLaw tangential = TangentialLaw::history;
   RollingLaw rolling = RollingLaw::off;
-  bool limit_force = false;          ///< no attraction from damping
-  bool absolute_damping = false;     ///< hooke_stiffness: damping is not multiplied by the mass
-  bool torsion = false;              ///< rolling torque keeps its part along the normal
+  bool limit_force = false;            ///< no attraction from damping
+  bool absolute_damping = false;       ///< hooke_stiffness: damping is not multiplied by the mass
+  bool torsion = false;                ///< rolling torque keeps its part along the normal
   double characteristic_velocity = 0;  ///< m/s, hooke only
   int materials = 1;
   const PairCoefficients* coefficients = nullptr;  ///< materials x materials

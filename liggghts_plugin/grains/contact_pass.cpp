@@ -4,8 +4,9 @@
 
 namespace suffuse::grains {
 
-std::size_t contact_pass(InstructionSet instruction_set, const CandidatePairs& candidates, const GrainArrays& grains,
-                         const PassSettings& settings, Quad* springs, const PassOutput& output) {
+std::size_t contact_pass(InstructionSet instruction_set, const CandidatePairs& candidates,
+                         const GrainArrays& grains, const PassSettings& settings, Quad* springs,
+                         const PassOutput& output) {
   switch (instruction_set) {
 #ifdef SUFFUSE_HAVE_X86_KERNELS
     case InstructionSet::avx512:

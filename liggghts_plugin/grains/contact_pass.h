@@ -43,9 +43,11 @@ struct PassSettings {
   ContactLaw law;
   double time_step = 0;
   bool advance_springs = true;  ///< false: forces of the springs as they are (set-up, samples)
-  bool half_step_normal = false;  ///< velocities are those of half a step ago: so is the normal they are split with
-  bool drop_lost_springs = true;  ///< a pair that did not touch in the pass before starts with a spring of zero
-  double pass_number = 1;       ///< of the passes that advance springs; w of a spring is the last it took part in
+  bool half_step_normal =
+      false;  ///< velocities are those of half a step ago: so is the normal they are split with
+  bool drop_lost_springs =
+      true;                ///< a pair that did not touch in the pass before starts with a spring of zero
+  double pass_number = 1;  ///< of the passes that advance springs; w of a spring is the last it took part in
 };
 
 /// What a contact was found to do, where a caller wants to know each one.
@@ -59,19 +61,21 @@ struct ContactNote {
 /// What a pass adds to or writes; null pointers where nothing is wanted.
 struct PassOutput {
   Load* loads = nullptr;
-  double* virial = nullptr;                  ///< six sums xx yy zz xy xz yz of branch times force (J), added to
-  double* grain_virial = nullptr;            ///< six a grain: half of each contact's on both sides
-  int owned = 0;                             ///< receivers >= owned count for half of a contact's virial
-  void (*note)(void* listener, const ContactNote&) = nullptr;  ///< told of every contact, in the order of pairs
+  double* virial = nullptr;        ///< six sums xx yy zz xy xz yz of branch times force (J), added to
+  double* grain_virial = nullptr;  ///< six a grain: half of each contact's on both sides
+  int owned = 0;                   ///< receivers >= owned count for half of a contact's virial
+  void (*note)(void* listener,
+               const ContactNote&) = nullptr;  ///< told of every contact, in the order of pairs
   void* listener = nullptr;
 };
 
-/// Forces of all touching candidates. Touching means distance < sum of radii. Springs (m, on the first grain's
-/// side) are advanced in place if the settings say so. Returns how many touch.
+/// Forces of all touching candidates. Touching means distance < sum of radii. Springs (m, on the first
+/// grain's side) are advanced in place if the settings say so. Returns how many touch.
 ///
 /// `instruction_set` chooses among versions that differ by rounding only.
-std::size_t contact_pass(InstructionSet instruction_set, const CandidatePairs& candidates, const GrainArrays& grains,
-                         const PassSettings& settings, Quad* springs, const PassOutput& output);
+std::size_t contact_pass(InstructionSet instruction_set, const CandidatePairs& candidates,
+                         const GrainArrays& grains, const PassSettings& settings, Quad* springs,
+                         const PassOutput& output);
 
 /// As `contact_pass`, one contact after the other in plain code: what the fast versions are held against.
 std::size_t reference_contact_pass(const CandidatePairs& candidates, const GrainArrays& grains,

@@ -21,8 +21,8 @@ struct Coefficients {
   double k_n, k_t, gamma_n, gamma_t;
 };
 
-Coefficients coefficients(const ContactLaw& law, const PairCoefficients& pair, double reduced_radius, double mass,
-                          double overlap) {
+Coefficients coefficients(const ContactLaw& law, const PairCoefficients& pair, double reduced_radius,
+                          double mass, double overlap) {
   switch (law.normal) {
     case NormalLaw::hertz: {
       const double contact_radius = std::sqrt(reduced_radius * overlap);
@@ -56,10 +56,10 @@ struct Contact {
   double normal_force;
 };
 
-Vec3 tangential_force(const PassSettings& settings, const Coefficients& k, double friction, const Contact& contact,
-                      Quad& spring) {
-  const Vec3 slip =
-      across(contact.relative_velocity, contact.normal_then) + contact.normal_then.cross(contact.surface_spin);
+Vec3 tangential_force(const PassSettings& settings, const Coefficients& k, double friction,
+                      const Contact& contact, Quad& spring) {
+  const Vec3 slip = across(contact.relative_velocity, contact.normal_then) +
+                    contact.normal_then.cross(contact.surface_spin);
   const double limit = friction * std::abs(contact.normal_force);
   if (settings.law.tangential == TangentialLaw::off) return Vec3::Zero();
   if (settings.law.tangential == TangentialLaw::no_history) {

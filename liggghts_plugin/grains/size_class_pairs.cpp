@@ -75,9 +75,11 @@ void SizeClassPairs::sort_into_classes(const Spheres& spheres, double distance_f
     for (std::size_t d = 0; d < 3; ++d) c.width = std::max(c.width, (high[d] - low[d]) / 1024);
     c.inverse_width = 1 / c.width;
     c.low = low;
-    for (std::size_t d = 0; d < 3; ++d) c.cells[d] = static_cast<int>((high[d] - low[d]) * c.inverse_width) + 1;
+    for (std::size_t d = 0; d < 3; ++d)
+      c.cells[d] = static_cast<int>((high[d] - low[d]) * c.inverse_width) + 1;
     c.start.assign(static_cast<std::size_t>(c.cells[0]) * static_cast<std::size_t>(c.cells[1]) *
-                           static_cast<std::size_t>(c.cells[2]) + 1,
+                           static_cast<std::size_t>(c.cells[2]) +
+                       1,
                    0);
   }
 
@@ -90,14 +92,16 @@ void SizeClassPairs::sort_into_classes(const Spheres& spheres, double distance_f
   }
   for (Class& c : classes_) {
     if (c.spots.empty()) continue;
-    int sum = 0;  // start[cell] becomes the end of the cell, and its beginning as spheres are put in from the back
+    int sum =
+        0;  // start[cell] becomes the end of the cell, and its beginning as spheres are put in from the back
     for (int& s : c.start) s = sum += s;
   }
   for (std::size_t i = owned; i-- > 0;) {
     Class& c = classes_[static_cast<std::size_t>(class_of_[i])];
     const double* x = spheres.positions + 3 * i;
     const int place = --c.start[static_cast<std::size_t>(cell_of_[i])];
-    c.spots[static_cast<std::size_t>(place)] = {x[0], x[1], x[2], spheres.radii[i], static_cast<int>(i), cell_of_[i]};
+    c.spots[static_cast<std::size_t>(place)] = {x[0],       x[1], x[2], spheres.radii[i], static_cast<int>(i),
+                                                cell_of_[i]};
   }
 }
 
@@ -123,13 +127,14 @@ void SizeClassPairs::pairs_within(const Class& of, double distance_factor, doubl
     for (int z = own_z; z <= z1; ++z)
       for (int y = z == own_z ? own_y + 1 : y0; y <= y1; ++y) {
         const int first = (z * of.cells[1] + y) * of.cells[0];
-        look_at(of.start[static_cast<std::size_t>(first + x0)], of.start[static_cast<std::size_t>(first + x1 + 1)]);
+        look_at(of.start[static_cast<std::size_t>(first + x0)],
+                of.start[static_cast<std::size_t>(first + x1 + 1)]);
       }
   }
 }
 
-void SizeClassPairs::partners_in(const Class& of, const Spot& asking, bool asking_is_owned, double distance_factor,
-                                 double skin) {
+void SizeClassPairs::partners_in(const Class& of, const Spot& asking, bool asking_is_owned,
+                                 double distance_factor, double skin) {
   if (of.spots.empty()) return;
   const double reach = (asking.radius + of.largest) * distance_factor + skin;
   const double at[3] = {asking.x, asking.y, asking.z};

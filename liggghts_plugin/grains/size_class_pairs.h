@@ -16,18 +16,20 @@ struct Spheres {
 
 /// All pairs of spheres that are near each other, found with one grid of cells for each class of sizes.
 ///
-/// A class spans a factor of two in radius, and its cells fit its own largest spheres: small spheres are not looked
-/// for in cells as wide as the largest sphere, which is what makes lists of graded soils slow (`ogarko2012`). Pairs
-/// within a class are found by looking ahead in the order of cells; a sphere of a larger class asks the grids of all
-/// smaller ones; copies ask all classes.
+/// A class spans a factor of two in radius, and its cells fit its own largest spheres: small spheres are not
+/// looked for in cells as wide as the largest sphere, which is what makes lists of graded soils slow
+/// (`ogarko2012`). Pairs within a class are found by looking ahead in the order of cells; a sphere of a
+/// larger class asks the grids of all smaller ones; copies ask all classes.
 class SizeClassPairs {
  public:
-  /// Finds each pair with distance <= distance_factor * (r_i + r_j) + skin of which at least one is owned, once.
-  /// Positions must be finite.
+  /// Finds each pair with distance <= distance_factor * (r_i + r_j) + skin of which at least one is owned,
+  /// once. Positions must be finite.
   void find(const Spheres& spheres, double distance_factor, double skin);
 
   /// Partners of an owned sphere: those with a higher index, in ascending order.
-  const int* partners(int sphere) const { return partners_.data() + first_[static_cast<std::size_t>(sphere)]; }
+  const int* partners(int sphere) const {
+    return partners_.data() + first_[static_cast<std::size_t>(sphere)];
+  }
   int count(int sphere) const {
     const auto i = static_cast<std::size_t>(sphere);
     return static_cast<int>(first_[i + 1] - first_[i]);
@@ -55,7 +57,8 @@ class SizeClassPairs {
 
   void sort_into_classes(const Spheres& spheres, double distance_factor, double skin);
   void pairs_within(const Class& of, double distance_factor, double skin);
-  void partners_in(const Class& of, const Spot& asking, bool asking_is_owned, double distance_factor, double skin);
+  void partners_in(const Class& of, const Spot& asking, bool asking_is_owned, double distance_factor,
+                   double skin);
   void gather_by_owner(int owned);
   void add(int a, int b);
 

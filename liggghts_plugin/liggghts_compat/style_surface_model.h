@@ -1,2 +1,2 @@
-// Debian's libliggghts-dev includes this list of surface models in its headers but does not ship it. Nothing here needs
-// the models themselves, which are compiled into the library.
+// Debian's libliggghts-dev includes this list of surface models in its headers but does not ship it. Nothing
+// here needs the models themselves, which are compiled into the library.

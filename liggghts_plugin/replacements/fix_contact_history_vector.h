@@ -4,8 +4,8 @@
 
 namespace LAMMPS_NS {
 
-/// LIGGGHTS's store of contact histories, which first asks our pair style to bring home the springs that it keeps
-/// in its own order. LIGGGHTS's pair style makes one under the name `contacthistory`.
+/// LIGGGHTS's store of contact histories, which first asks our pair style to bring home the springs that it
+/// keeps in its own order. LIGGGHTS's pair style makes one under the name `contacthistory`.
 class FixContactHistoryVector : public FixContactHistory {
  public:
   using FixContactHistory::FixContactHistory;

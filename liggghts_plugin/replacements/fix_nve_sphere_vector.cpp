@@ -10,7 +10,8 @@ namespace LAMMPS_NS {
 namespace {
 constexpr int kBlock = 512;  // grains; their data stay in the first-level cache between the loops
 
-void add_scaled(double* __restrict to, const double* __restrict factor, const double* __restrict what, int count) {
+void add_scaled(double* __restrict to, const double* __restrict factor, const double* __restrict what,
+                int count) {
   for (int k = 0; k < count; ++k) to[k] += factor[k] * what[k];
 }
 }  // namespace

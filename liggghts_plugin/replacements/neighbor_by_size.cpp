@@ -32,7 +32,8 @@ void NeighborBySize::choose_build(int index, NeighRequest* request) {
 }
 
 void NeighborBySize::granular_by_size(NeighList* list) {
-  bin_atoms();  // walls of triangles and others read these bins; it also finds grains whose position is no number
+  bin_atoms();  // walls of triangles and others read these bins; it also finds grains whose position is no
+                // number
   const int owned = atom->nlocal;
   if (owned == 0) {
     list->inum = 0;
@@ -69,7 +70,8 @@ void NeighborBySize::require_room(const NeighList*, int grain) const {
   if (pairs_.count(grain) > oneatom) error->one(FLERR, "Neighbor list overflow, boost neigh_modify one");
 }
 
-int NeighborBySize::list_partners(NeighList* list, int grain, int* partners, int* flags, double* histories) const {
+int NeighborBySize::list_partners(NeighList* list, int grain, int* partners, int* flags,
+                                  double* histories) const {
   FixContactHistory* known = list->fix_history;
   const int values = known != nullptr ? list->listgranhistory->dnum : 0;
   const int touching = known != nullptr ? known->n_partner(grain) : 0;

@@ -7,12 +7,13 @@
 
 namespace LAMMPS_NS {
 
-/// LIGGGHTS's neighbour lists, of which those of granular pairs are filled from a grid for each class of sizes
+/// LIGGGHTS's neighbour lists, of which those of granular pairs are filled from a grid for each class of
+/// sizes
 /// (`SizeClassPairs`) instead of one grid of cells as wide as the largest grain.
 ///
-/// Lists have the same pairs as LIGGGHTS's own, each grain's partners in ascending order, in the same pages, with
-/// the history of contacts beside them. `neighbor SKIN bin` and `multi` both mean this builder (LIGGGHTS's own
-/// `multi` is an empty stub that finds no contact at all); `nsq` is LIGGGHTS's own.
+/// Lists have the same pairs as LIGGGHTS's own, each grain's partners in ascending order, in the same pages,
+/// with the history of contacts beside them. `neighbor SKIN bin` and `multi` both mean this builder
+/// (LIGGGHTS's own `multi` is an empty stub that finds no contact at all); `nsq` is LIGGGHTS's own.
 class NeighborBySize : public Neighbor {
  public:
   explicit NeighborBySize(LAMMPS* lmp_in) : Neighbor(lmp_in) {}

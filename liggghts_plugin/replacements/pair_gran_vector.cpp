@@ -28,8 +28,8 @@ namespace {
 constexpr const char* kWho = "pair_style gran";
 constexpr double kNever = -1;  // w of a spring whose pair has not touched
 constexpr std::uint32_t kNoTwin = ~0u;
-/// A grain of `fix freeze` has no mass of its own in a contact (LIGGGHTS takes the partner's for both); where both
-/// are frozen their forces are not used, but stay numbers.
+/// A grain of `fix freeze` has no mass of its own in a contact (LIGGGHTS takes the partner's for both); where
+/// both are frozen their forces are not used, but stay numbers.
 constexpr double kFrozenInverseMass = 1e-30;
 
 bool one_of(const std::string& value, std::initializer_list<const char*> known) {
@@ -105,7 +105,8 @@ void PairGranVector::read_option(const std::string& keyword, const std::string& 
 std::string PairGranVector::why_stock() {
   const auto model = [this](const char* kind, const char* name) { return contact_match(kind, name); };
   if (!vector_wanted_) return "asked for by `loop stock`";
-  if (!options_known_) return "a restart file does not hold the model's options; write `pair_style gran ...` again";
+  if (!options_known_)
+    return "a restart file does not hold the model's options; write `pair_style gran ...` again";
   if (!foreign_option_.empty()) return fmt::format("option {}", foreign_option_);
   if (!model("cohesion", "off")) return "cohesion";
   if (!model("surface", "default")) return "surface model";
@@ -118,15 +119,18 @@ std::string PairGranVector::why_stock() {
   if (force->pair != this) return "pair style hybrid";
   if (fix_rigid != nullptr) return "rigid bodies";
   if (force->newton_pair != 0) return "newton on";
-  if (atom->rmass == nullptr || atom->superquadric_flag != 0 || atom->shapetype_flag != 0) return "grains are no spheres";
+  if (atom->rmass == nullptr || atom->superquadric_flag != 0 || atom->shapetype_flag != 0)
+    return "grains are no spheres";
   if (fix_sum_normal_force_ != nullptr) return "sum of normal forces";
   if (force->nktv2p != 1) return "units";
   if (force->cg_active()) return "coarse graining";
-  for (const char* style : {"insert/stream/predefined", "relax", "heat/gran/conduction", "multicontact/halfspace"})
+  for (const char* style :
+       {"insert/stream/predefined", "relax", "heat/gran/conduction", "multicontact/halfspace"})
     if (modify->n_fixes_style(style) > 0) return fmt::format("fix {}", style);
   for (int k = 0; k < modify->ncompute; ++k)
     if (std::string(modify->compute[k]->style) == "contact/atom/gran") return "compute contact/atom/gran";
-  if (!drop_lost_springs_ && neighbor->contactDistanceFactor > 1) return "`lost_springs keep` with a contact distance";
+  if (!drop_lost_springs_ && neighbor->contactDistanceFactor > 1)
+    return "`lost_springs keep` with a contact distance";
   return "";
 }
 
@@ -161,7 +165,11 @@ void PairGranVector::connect_properties() {
   if (contact_match("tangential", "history")) law_.tangential = TangentialLaw::history;
   law_.rolling = contact_match("rolling_friction", "cdt") ? RollingLaw::cdt : RollingLaw::off;
 
-  const auto connect = [this](const char* name, double**& target) { force->registry.connect(name, target, kWho); };
+  law_.materials = force->registry.max_type();  // LIGGGHTS's tables end with the highest type that has grains
+
+  const auto connect = [this](const char* name, double**& target) {
+    force->registry.connect(name, target, kWho);
+  };
   properties_ = {};
   if (law_.normal == NormalLaw::hooke_stiffness) {
     connect("k_n", properties_.effective_modulus);
@@ -172,15 +180,15 @@ void PairGranVector::connect_properties() {
     connect("Yeff", properties_.effective_modulus);
     connect("Geff", properties_.effective_shear_modulus);
     connect(law_.normal == NormalLaw::hertz ? "betaeff" : "coeffRestLog", properties_.damping);
-    if (law_.normal == NormalLaw::hooke) force->registry.connect("charVel", law_.characteristic_velocity, kWho);
+    if (law_.normal == NormalLaw::hooke)
+      force->registry.connect("charVel", law_.characteristic_velocity, kWho);
   }
   if (law_.tangential != TangentialLaw::off) connect("coeffFrict", properties_.friction);
   if (law_.rolling == RollingLaw::cdt) connect("coeffRollFrict", properties_.rolling_friction);
 }
 
 void PairGranVector::take_coefficients() {
-  const int types = atom->ntypes;
-  law_.materials = types;
+  const int types = law_.materials;
   coefficients_.resize(static_cast<std::size_t>(types) * static_cast<std::size_t>(types));
   for (int p = 1; p <= types; ++p) {
     for (int q = 1; q <= types; ++q) {
@@ -285,11 +293,12 @@ void PairGranVector::find_owners() {
   }
   immovable_.resize(static_cast<std::size_t>(all));
   for (int i = 0; i < all; ++i)
-    immovable_[static_cast<std::size_t>(i)] = (atom->mask[i] & freeze_group_bit_) != 0 ? kFrozenInverseMass : 1;
+    immovable_[static_cast<std::size_t>(i)] =
+        (atom->mask[i] & freeze_group_bit_) != 0 ? kFrozenInverseMass : 1;
 }
 
-/// A pair across a periodic face of a rank's own stands twice in the lists, as (i, image of o) and (o, image of i):
-/// found by its grains and the number of box lengths between the two.
+/// A pair across a periodic face of a rank's own stands twice in the lists, as (i, image of o) and (o, image
+/// of i): found by its grains and the number of box lengths between the two.
 void PairGranVector::find_twins() {
   struct Image {
     std::int64_t grains;
@@ -311,7 +320,9 @@ void PairGranVector::find_twins() {
                       static_cast<std::uint32_t>(k)});
   }
   std::sort(images.begin(), images.end(), [](const Image& a, const Image& b) {
-    return a.grains != b.grains ? a.grains < b.grains : a.shift != b.shift ? a.shift < b.shift : a.pair < b.pair;
+    return a.grains != b.grains ? a.grains < b.grains
+           : a.shift != b.shift ? a.shift < b.shift
+                                : a.pair < b.pair;
   });
   for (std::size_t k = 0; k + 1 < images.size(); ++k) {
     const Image &a = images[k], &b = images[k + 1];
@@ -375,7 +386,8 @@ void PairGranVector::take_motion() {
   velocity_.resize(all);
   spin_.resize(all);
   if (owned == 0) return;
-  const double *x = atom->x[0], *v = atom->v[0], *w = atom->omega[0], *radius = atom->radius, *mass = atom->rmass;
+  const double *x = atom->x[0], *v = atom->v[0], *w = atom->omega[0], *radius = atom->radius,
+               *mass = atom->rmass;
   for (std::size_t i = 0; i < all; ++i) position_[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
   const auto take = [&](std::size_t i) {
     velocity_[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2], immovable_[i] / mass[i]};
@@ -409,10 +421,9 @@ void PairGranVector::force_pass(int vflag) {
   if (vflag != 0 && vflag_global != 0) wanted.virial = virial;
   if (vflag != 0 && vflag_atom != 0) wanted.grain_virial = vatom[0];
   const bool advance = shearupdate_ != 0;
-  suffuse::grains::contact_pass(
-      instruction_set_, active_pairs(),
-      {position_.data(), velocity_.data(), spin_.data(), material_.data()}, pass_settings(advance), springs_.data(),
-      wanted);
+  suffuse::grains::contact_pass(instruction_set_, active_pairs(),
+                                {position_.data(), velocity_.data(), spin_.data(), material_.data()},
+                                pass_settings(advance), springs_.data(), wanted);
   if (advance) {
     ++pass_number_;
     springs_are_newer_ = law_.tangential == TangentialLaw::history;
@@ -426,9 +437,9 @@ void PairGranVector::force_pass(int vflag) {
   }
 }
 
-/// For `compute pair/gran/local` and our own sampler: every listed pair that touches, in the order of the lists,
-/// with the springs as they stand there. Both sides of a pair across a periodic face are one contact here as in the
-/// force pass, so that a spring at its Coulomb limit is at the limit on both.
+/// For `compute pair/gran/local` and our own sampler: every listed pair that touches, in the order of the
+/// lists, with the springs as they stand there. Both sides of a pair across a periodic face are one contact
+/// here as in the force pass, so that a spring at its Coulomb limit is at the limit on both.
 void PairGranVector::sample_pass() {
   springs_to_lists();
   take_motion();
@@ -446,7 +457,9 @@ void PairGranVector::sample_pass() {
   std::vector<ContactNote> notes;
   suffuse::grains::PassOutput wanted;
   wanted.listener = &notes;
-  wanted.note = [](void* to, const ContactNote& note) { static_cast<std::vector<ContactNote>*>(to)->push_back(note); };
+  wanted.note = [](void* to, const ContactNote& note) {
+    static_cast<std::vector<ContactNote>*>(to)->push_back(note);
+  };
   suffuse::grains::contact_pass(instruction_set_, active_pairs(),
                                 {position_.data(), velocity_.data(), spin_.data(), material_.data()},
                                 pass_settings(false), springs.data(), wanted);
@@ -454,7 +467,8 @@ void PairGranVector::sample_pass() {
   cpl_pair_finalize();
 }
 
-void PairGranVector::tell_contacts(const std::vector<ContactNote>& notes, const std::vector<double*>& histories) {
+void PairGranVector::tell_contacts(const std::vector<ContactNote>& notes,
+                                   const std::vector<double*>& histories) {
   struct Side {
     std::uint32_t pair;
     double sign;
@@ -469,14 +483,14 @@ void PairGranVector::tell_contacts(const std::vector<ContactNote>& notes, const 
   }
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.pair < b.pair; });
   for (const Side& side : sides)
-    cpl_->add_pair(first_[side.pair], second_[side.pair], side.sign * side.force[0], side.sign * side.force[1],
-                   side.sign * side.force[2], side.torque[0], side.torque[1], side.torque[2],
-                   histories.empty() ? nullptr : histories[side.pair], nullptr);
+    cpl_->add_pair(first_[side.pair], second_[side.pair], side.sign * side.force[0],
+                   side.sign * side.force[1], side.sign * side.force[2], side.torque[0], side.torque[1],
+                   side.torque[2], histories.empty() ? nullptr : histories[side.pair], nullptr);
 }
 
 suffuse::grains::CandidatePairs PairGranVector::active_pairs() const {
-  return {active_first_.size(),   active_first_.data(),    active_second_.data(),
-          active_motion_.data(),  active_receiver_.data(), active_spring_.data()};
+  return {active_first_.size(),  active_first_.data(),    active_second_.data(),
+          active_motion_.data(), active_receiver_.data(), active_spring_.data()};
 }
 
 /// LIGGGHTS's loop and ours from the same state; what goes on is ours.
@@ -505,10 +519,10 @@ void PairGranVector::compare_with_stock(int eflag, int vflag) {
   suffuse::sum_over_ranks(lmp, sums);
   double largest_of_all = 0;
   MPI_Allreduce(&largest, &largest_of_all, 1, MPI_DOUBLE, MPI_MAX, world);
-  suffuse::tell(lmp, fmt::format("pair gran: step {}, largest difference of a force from LIGGGHTS's own loop {:.2g} of "
-                                 "their rms\n",
-                                 update->ntimestep,
-                                 sums[0] > 0 ? largest_of_all / std::sqrt(sums[0] / sums[1]) : 0));
+  suffuse::tell(
+      lmp, fmt::format("pair gran: step {}, largest difference of a force from LIGGGHTS's own loop {:.2g} of "
+                       "their rms\n",
+                       update->ntimestep, sums[0] > 0 ? largest_of_all / std::sqrt(sums[0] / sums[1]) : 0));
 }
 
 }  // namespace LAMMPS_NS

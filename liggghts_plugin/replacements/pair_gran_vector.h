@@ -11,13 +11,14 @@ namespace LAMMPS_NS {
 
 /// `pair_style gran` with a vectorised evaluation of the contacts.
 ///
-/// Settings, coefficients, restart files, walls and every other interface are LIGGGHTS's own. The pass over the
-/// contacts is ours where the model is one that `suffuse::grains::contact_pass` has; else it is LIGGGHTS's, which
-/// the program says once with the reason. Between two neighbour lists springs live in an array of our own and are
-/// brought back into LIGGGHTS's lists whenever something of LIGGGHTS's is about to read them.
+/// Settings, coefficients, restart files, walls and every other interface are LIGGGHTS's own. The pass over
+/// the contacts is ours where the model is one that `suffuse::grains::contact_pass` has; else it is
+/// LIGGGHTS's, which the program says once with the reason. Between two neighbour lists springs live in an
+/// array of our own and are brought back into LIGGGHTS's lists whenever something of LIGGGHTS's is about to
+/// read them.
 ///
-/// Own keywords, after LIGGGHTS's: `loop vector|stock`, `lost_springs drop|keep`, `normal_at half_step|full_step`,
-/// `compare N`; see docs/reference/pair_style_gran.md.
+/// Own keywords, after LIGGGHTS's: `loop vector|stock`, `lost_springs drop|keep`, `normal_at
+/// half_step|full_step`, `compare N`; see docs/reference/pair_style_gran.md.
 class PairGranVector : public PairGranProxy {
  public:
   explicit PairGranVector(LAMMPS* lmp_in);
@@ -57,8 +58,10 @@ class PairGranVector : public PairGranProxy {
   suffuse::grains::PassSettings pass_settings(bool advance) const;
   void force_pass(int vflag);
   void sample_pass();
-  /// Passes contacts on to whoever asked, each side that LIGGGHTS lists; `histories` holds each listed pair's values.
-  void tell_contacts(const std::vector<suffuse::grains::ContactNote>& notes, const std::vector<double*>& histories);
+  /// Passes contacts on to whoever asked, each side that LIGGGHTS lists; `histories` holds each listed pair's
+  /// values.
+  void tell_contacts(const std::vector<suffuse::grains::ContactNote>& notes,
+                     const std::vector<double*>& histories);
   suffuse::grains::CandidatePairs active_pairs() const;
   void compare_with_stock(int eflag, int vflag);
 
@@ -77,16 +80,16 @@ class PairGranVector : public PairGranProxy {
 
   // What was made of the present lists.
   bigint seen_generation_ = -1;
-  bool lists_are_newer_ = true;    ///< LIGGGHTS's own loop has moved the springs since we took them
+  bool lists_are_newer_ = true;  ///< LIGGGHTS's own loop has moved the springs since we took them
   bool springs_are_newer_ = false;
-  std::vector<int> first_, second_;          ///< all pairs, in the order of the lists
-  std::vector<std::uint32_t> twin_;          ///< the same pair, seen from the other side of a periodic face
+  std::vector<int> first_, second_;  ///< all pairs, in the order of the lists
+  std::vector<std::uint32_t> twin_;  ///< the same pair, seen from the other side of a periodic face
   std::vector<suffuse::grains::Quad> springs_;
   std::vector<int> active_first_, active_second_, active_motion_, active_receiver_;
   std::vector<std::uint32_t> active_spring_, active_pair_;
-  std::vector<int> owner_;                   ///< of a copy whose original is on this rank: that one; else itself
-  std::vector<int> foreign_;                 ///< copies of grains of other ranks
-  std::vector<double> immovable_;            ///< factor of 1 / mass, one a grain
+  std::vector<int> owner_;         ///< of a copy whose original is on this rank: that one; else itself
+  std::vector<int> foreign_;       ///< copies of grains of other ranks
+  std::vector<double> immovable_;  ///< factor of 1 / mass, one a grain
   double pass_number_ = 0;
 
   std::vector<suffuse::grains::Quad> position_, velocity_, spin_;

@@ -39,7 +39,8 @@ ServoNetwork measure_network(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixContactSample
   for (const auto& contact : packing.contacts) {
     const auto first = static_cast<std::size_t>(contact.first);
     const double depth = mm::overlap(packing, contact);
-    normal_stiffness.push_back(exponent * std::abs(mm::normal_force(contact)) / depth);  // of f ~ depth^exponent
+    normal_stiffness.push_back(exponent * std::abs(mm::normal_force(contact)) /
+                               depth);  // of f ~ depth^exponent
     resultant[first] += contact.force;
     if (mm::owns_second(contact)) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
     if (!mm::is_counted(packing, contact)) continue;

@@ -19,7 +19,7 @@ from analyse_runs import PROBLEMS, Runner, expect, rows  # noqa: E402
 
 class FluidisationRunner(Runner):
     def results(self, *words):
-        done = self(*words, "--csv", "results.csv", "--json", "results.json")
+        done = self(*words, "--csv", "results.csv", "--json", "results.json", "--overwrite")
         expect(done.returncode == 0, f"{words}: {done.stderr}")
         table = rows(self.folder / "results.csv")
         return {row["quantity"]: float(row["value"]) for row in table if row["layer"] == "" and row["value"]}, table
@@ -137,7 +137,7 @@ def figures(run, folder, python):
         return subprocess.run([python, folder / "fluidisation.py", *map(str, words)], cwd=run.folder, capture_output=True, text=True, timeout=120)
 
     for name in ("ramp", "stages"):
-        run(f"{name}.csv", "--csv", "results.csv")
+        run(f"{name}.csv", "--csv", "results.csv", "--overwrite")
         done = draw(f"{name}.csv", "--results", "results.csv", "--output", f"{name}.png", f"{name}.pdf")
         expect(done.returncode == 0 and (run.folder / f"{name}.png").stat().st_size > 10000, f"figure of {name}: {done.stderr}")
     done = draw("--measures", "measures.csv", "--distributions", "shares.csv", "--output", "contacts.png")

@@ -17,7 +17,7 @@ from analyse_runs import PROBLEMS, Runner, expect, rows  # noqa: E402
 
 
 def criteria(run, *words):
-    result = run("grading", *words, "--output", "criteria.csv")
+    result = run("grading", *words, "--output", "criteria.csv", "--overwrite")
     expect(result.returncode == 0, f"grading {words}: {result.stderr}")
     return {row["criterion"]: row for row in rows(run.folder / "criteria.csv")}
 
@@ -172,7 +172,7 @@ def refused(run, what, words, says, outputs):
 def constriction_limits(run, gradings):
     # Dc35/d85 of 8b at Rd = 0.5 is 0.491.
     for limit, verdict in (("chapter_4=0.49", "unstable"), ("chapter_4=0.5", "stable")):
-        run("constriction", gradings / "appendix_A.csv", "--relative-density", 0.5, "--limit", limit, "--output", "criteria.csv")
+        run("constriction", gradings / "appendix_A.csv", "--relative-density", 0.5, "--limit", limit, "--output", "criteria.csv", "--overwrite")
         found = {row["criterion"]: row for row in rows(run.folder / "criteria.csv")}
         expect(found["Chapter 4 of the thesis"]["verdict"] == verdict, f"{limit} makes 8b {verdict}")
     result = run("constriction", gradings / "appendix_A.csv", "--limit", "fines_split=0.31")

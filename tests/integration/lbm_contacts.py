@@ -74,7 +74,7 @@ def values_in_run(screen):
 
 def compare(suffuse, computed, what, files, exact):
     """Each state against the run; the largest difference. `exact`: a bound for all; none: those of text."""
-    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv", *(() if exact else LAW_COLUMNS))
+    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv", "--overwrite", *(() if exact else LAW_COLUMNS))
     check(code == 0, f"{what}: suffuse-analyse ended with {code}: {err}")
     series = rows(suffuse.folder / "series.csv")
     substeps = SUBSTEPS if exact else 1

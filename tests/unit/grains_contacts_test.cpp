@@ -37,7 +37,8 @@ struct Heap {
         second.push_back(j);
         receiver.push_back(j < owned ? j : grains);
         spring.push_back(static_cast<std::uint32_t>(springs.size()));
-        springs.push_back({1e-6 * unit(random), 1e-6 * unit(random), 1e-6 * unit(random), random() % 3 == 0 ? 3. : 4.});
+        springs.push_back(
+            {1e-6 * unit(random), 1e-6 * unit(random), 1e-6 * unit(random), random() % 3 == 0 ? 3. : 4.});
       }
   }
 
@@ -105,7 +106,8 @@ double rms(const std::vector<double>& values) {
 double difference(const std::vector<double>& found, const std::vector<double>& expected) {
   REQUIRE(found.size() == expected.size());
   double largest = 0;
-  for (std::size_t k = 0; k < found.size(); ++k) largest = std::max(largest, std::abs(found[k] - expected[k]));
+  for (std::size_t k = 0; k < found.size(); ++k)
+    largest = std::max(largest, std::abs(found[k] - expected[k]));
   const double size = rms(expected);
   return size > 0 ? largest / size : largest;
 }
@@ -151,7 +153,8 @@ TEST_CASE("every law's vectorised loop gives the plain loop's loads, springs and
   const double bound = 1e-11;
   for (const InstructionSet set : available_instruction_sets()) {
     INFO(name_of(set));
-    const Result found = result_of(heap, settings, [set](auto&&... arguments) { return contact_pass(set, arguments...); });
+    const Result found =
+        result_of(heap, settings, [set](auto&&... arguments) { return contact_pass(set, arguments...); });
     CHECK(found.touching == expected.touching);
     CHECK(difference(forces_of(found.loads), forces_of(expected.loads)) < bound);
     CHECK(difference(torques_of(found.loads), torques_of(expected.loads)) < bound);
@@ -163,9 +166,11 @@ TEST_CASE("every law's vectorised loop gives the plain loop's loads, springs and
     for (std::size_t k = 0; k < found.notes.size(); ++k) {
       CHECK(found.notes[k].pair == expected.notes[k].pair);
       for (int d = 0; d < 3; ++d) {
-        note.insert(note.end(), {found.notes[k].force[d], 1e3 * found.notes[k].torque[d], 1e3 * found.notes[k].torque_on_second[d]});
-        expected_note.insert(expected_note.end(), {expected.notes[k].force[d], 1e3 * expected.notes[k].torque[d],
-                                                   1e3 * expected.notes[k].torque_on_second[d]});
+        note.insert(note.end(), {found.notes[k].force[d], 1e3 * found.notes[k].torque[d],
+                                 1e3 * found.notes[k].torque_on_second[d]});
+        expected_note.insert(expected_note.end(),
+                             {expected.notes[k].force[d], 1e3 * expected.notes[k].torque[d],
+                              1e3 * expected.notes[k].torque_on_second[d]});
       }
     }
     CHECK(difference(note, expected_note) < bound);
@@ -200,7 +205,8 @@ TEST_CASE("two grains at rest press with 4/3 E* sqrt(r*) overlap^3/2, and slide 
   const PassSettings settings = heap.settings(NormalLaw::hertz, TangentialLaw::history, RollingLaw::off, 1);
   const double force = 4. / 3 * 5e7 * std::sqrt(r / 2) * std::pow(overlap, 1.5);
   for (const InstructionSet set : available_instruction_sets()) {
-    const Result found = result_of(heap, settings, [set](auto&&... arguments) { return contact_pass(set, arguments...); });
+    const Result found =
+        result_of(heap, settings, [set](auto&&... arguments) { return contact_pass(set, arguments...); });
     REQUIRE(found.touching == 1);
     CHECK(found.loads[0].force.x == Approx(-force).epsilon(1e-9));
     CHECK(found.loads[1].force.x == Approx(force).epsilon(1e-9));
@@ -214,7 +220,9 @@ TEST_CASE("two grains at rest press with 4/3 E* sqrt(r*) overlap^3/2, and slide 
   }
 }
 
-TEST_CASE("a pair that did not touch in the pass before starts with a new spring, or keeps it where that is asked for") {
+TEST_CASE(
+    "a pair that did not touch in the pass before starts with a new spring, or keeps it where that is asked "
+    "for") {
   Heap heap(2);
   heap.owned = 2;
   const double r = 0.5e-3;

@@ -1,7 +1,7 @@
 // Pairs by size class against all pairs tried one by one.
 
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -19,13 +19,14 @@ struct Cloud {
   std::vector<double> positions, radii;
   int owned = 0;
 
-  /// Radii spread evenly in their logarithm between 1 and `ratio` times 1e-4 m; a fifth of the spheres are copies,
-  /// some of them outside the box of the others.
+  /// Radii spread evenly in their logarithm between 1 and `ratio` times 1e-4 m; a fifth of the spheres are
+  /// copies, some of them outside the box of the others.
   Cloud(int count, double ratio, double box, unsigned seed) : owned(count - count / 5) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int i = 0; i < count; ++i) {
-      for (int d = 0; d < 3; ++d) positions.push_back(i < owned ? box * unit(random) : box * (1.4 * unit(random) - 0.2));
+      for (int d = 0; d < 3; ++d)
+        positions.push_back(i < owned ? box * unit(random) : box * (1.4 * unit(random) - 0.2));
       radii.push_back(1e-4 * std::pow(ratio, unit(random)));
     }
   }
@@ -40,10 +41,13 @@ Pairs tried_one_by_one(const Cloud& cloud, double factor, double skin) {
     for (int j = i + 1; j < static_cast<int>(cloud.radii.size()); ++j) {
       double square = 0;
       for (int d = 0; d < 3; ++d) {
-        const double part = cloud.positions[static_cast<std::size_t>(3 * i + d)] - cloud.positions[static_cast<std::size_t>(3 * j + d)];
+        const double part = cloud.positions[static_cast<std::size_t>(3 * i + d)] -
+                            cloud.positions[static_cast<std::size_t>(3 * j + d)];
         square += part * part;
       }
-      const double cut = (cloud.radii[static_cast<std::size_t>(i)] + cloud.radii[static_cast<std::size_t>(j)]) * factor + skin;
+      const double cut =
+          (cloud.radii[static_cast<std::size_t>(i)] + cloud.radii[static_cast<std::size_t>(j)]) * factor +
+          skin;
       if (square <= cut * cut) pairs.emplace_back(i, j);
     }
   return pairs;
@@ -59,7 +63,9 @@ Pairs found(SizeClassPairs& search, const Cloud& cloud, double factor, double sk
 
 }  // namespace
 
-TEST_CASE("size classes find the pairs that trying all finds, each once and in order, from 1:1 to 1:30 at any skin") {
+TEST_CASE(
+    "size classes find the pairs that trying all finds, each once and in order, from 1:1 to 1:30 at any "
+    "skin") {
   const double ratio = GENERATE(1., 2., 5.5, 30., 300.);
   const double skin = GENERATE(0., 1e-6, 1e-4, 2e-3);
   const double factor = GENERATE(1., 1.3);

@@ -91,7 +91,7 @@ def gather(folder, name, steps):
 
 
 def compare(suffuse, computed, what, files, tolerance):
-    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv", *LAW_COLUMNS)
+    code, out, err = suffuse.analyse("contacts", *files, "--split", SPLIT, "--output", "series.csv", "--overwrite", *LAW_COLUMNS)
     check(code == 0, f"{what}: suffuse-analyse ended with {code}: {err}")
     with open(suffuse.folder / "series.csv", newline="") as file:
         rows = list(csv.DictReader(file))
@@ -138,6 +138,25 @@ def check_bad_hdf5(suffuse):
             step[name][at] = value
         return change
 
+    def with_type(name, kind, at, value):
+        def change(step):
+            values = step[name][()].astype(kind)
+            values[at] = value
+            del step[name]
+            step[name] = values
+        return change
+
+    def turned_on_itself(step):
+        step["contacts/ids"][4] = [step["contacts/ids"][4][0]] * 2
+
+    def twice(step):
+        for name in ("ids", "force", "friction_limit", "spring_force"):
+            step[f"contacts/{name}"][7] = step[f"contacts/{name}"][6]
+
+    def claiming(step):
+        del step["grains/radius"]
+        step.create_dataset("grains/radius", shape=(2**40,), chunks=(1024,), dtype="f8")  # 8 TiB of nothing
+
     refused("no box", ["bad.h5/step_", "no box", "--volume"], without("box"))
     refused("no radius", ["grains/radius"], without("grains/radius"))
     refused("no force", ["contacts/force"], without("contacts/force"))
@@ -145,6 +164,14 @@ def check_bad_hdf5(suffuse):
     refused("a grain twice", ["twice"], with_value("grains/id", 0, 5))
     refused("nan", ["contacts/force", "nan"], with_value("contacts/force", (0, 0), math.nan))
     refused("other units", ["units"], with_value("grains/radius", 3, 0.5))
+    refused("half a grain", ["identifier", "5.5"], with_type("contacts/ids", "f8", (3, 1), 5.5))
+    refused("a grain of a broken number", ["identifier", "2.5"], with_type("grains/id", "f8", 1, 2.5))
+    refused("a contact with itself", ["0 m apart"], turned_on_itself)
+    refused("a contact with itself, told apart", ["in contact with itself"], lambda step: (turned_on_itself(step), step.create_dataset(
+        "contacts/branch", data=numpy.full(step["contacts/ids"].shape[:1] + (3,), 2e-4))))
+    refused("a contact twice", ["is there twice"], twice)
+    refused("a negative limit", ["negative friction"], with_value("contacts/friction_limit", 2, -1))
+    refused("claims without data", ["grains/radius claims"], claiming)
     refused("a cut file", ["bad.h5"], 3000)
     shutil.copyfile(suffuse.folder / "exact.h5", suffuse.folder / "free.h5")
     with h5py.File(suffuse.folder / "free.h5", "r+") as file:

@@ -9,6 +9,7 @@ import csv
 import json
 import math
 import pathlib
+import subprocess
 import tempfile
 
 from program_under_test import Program, check, python_with_figures
@@ -128,6 +129,55 @@ def check_mistakes(program):
         program.must_refuse(words, *told)
 
 
+def check_hostile(program):
+    """Contacts that cannot be, counts that no file holds, names that no disk takes, and results that are there already."""
+    folder = program.folder
+    lines = (folder / "c.dump").read_text().splitlines()
+    head = next(k for k, line in enumerate(lines) if line.startswith("ITEM: ENTRIES")) + 1
+    counted = next(k for k, line in enumerate(lines) if line.startswith("ITEM: NUMBER OF ENTRIES")) + 1
+
+    def write(name, rows, claimed=None):
+        end = next((k for k in range(head, len(lines)) if lines[k].startswith("ITEM: TIMESTEP")), len(lines))
+        text = lines[:head] + rows + lines[end:]
+        text[counted] = str(claimed or len(rows))
+        (folder / name).write_text("\n".join(text) + "\n")
+        return name
+
+    end = next((k for k in range(head, len(lines)) if lines[k].startswith("ITEM: TIMESTEP")), len(lines))
+    rows = lines[head:end]
+    words = rows[0].split()
+    swapped = [*words[3:6], *words[:3], words[7], words[6], *words[8:9], *(str(-float(w)) for w in words[9:])]
+    for name, changed, told in (("twice.dump", rows + rows[:1], "is there twice"), ("turned.dump", rows + [" ".join(swapped)], "is there twice"),
+                                ("self.dump", [" ".join([*words[:7], words[6], *words[8:]])] + rows[1:], "in contact with itself"),
+                                ("half.dump", [" ".join([*words[:6], words[6] + ".5", *words[7:]])] + rows[1:], "identifier")):
+        program.must_refuse(["contacts", write(name, changed), "g.dump"], name, told)
+    # 4e12 rows of 18 values would be 300 TB: refused for what is missing, not for the memory.
+    program.must_refuse(["contacts", write("huge.dump", rows, 4 * 10**12), "g.dump"], "huge.dump")
+
+    program.must_run("contacts", "c.dump", "g.dump", "--output", "kept.csv")
+    kept = (folder / "kept.csv").read_text()
+    program.must_refuse(["contacts", "c.dump", "g.dump", "--json", "new.json", "--output", "kept.csv"], "--output = kept.csv", "--overwrite")
+    program.must_refuse(["rose", "c.dump", "g.dump", "--output", "kept.csv"], "--output = kept.csv", "--overwrite")
+    check((folder / "kept.csv").read_text() == kept, "an earlier result has changed")
+    program.must_run("contacts", "c.dump", "g.dump", "--output", "kept.csv", "--overwrite", "--axis", "x")
+    check((folder / "kept.csv").read_text() != kept, "--overwrite leaves the old result")
+
+    (folder / "loop").symlink_to("loop")
+    long = "n" * 300
+    for words, told in ((["--output", long], "File name too long"), (["--output", "loop"], "symbolic links"), (["--output", "/dev/full"], "must not be there yet"), (["--output", "/dev/full", "--overwrite"], "regular file"),
+                        (["--output", "loop/x.csv"], "loop/x.csv")):
+        program.must_refuse(["contacts", "c.dump", "g.dump", *words], told)
+    for name, told in ((long, "long"), ("loop", "symbolic links")):
+        program.must_refuse(["contacts", name, "g.dump"], told)
+        program.must_refuse(["grading", name], name)
+        program.must_refuse(["reproduce", "table-4-1", name], name)
+    for line in (f"cd gone && rmdir ../gone && {program.path} reproduce table-4-1 .", f"{program.path} contacts c.dump g.dump > /dev/full"):
+        (folder / "gone").mkdir()
+        done = subprocess.run(["sh", "-c", line], cwd=folder, capture_output=True, text=True, timeout=60)
+        check(done.returncode == 1 and "internal" not in done.stderr and done.stderr.startswith("suffuse-analyse: error: "), f"{line}: {done.returncode}, {done.stderr}")
+    (folder / "loop").unlink()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--analyse", required=True)
@@ -144,6 +194,7 @@ def main():
         check_results(program)
         check_rose(program, has_figures)
         check_mistakes(program)
+        check_hostile(program)
         check_reproduce(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
 

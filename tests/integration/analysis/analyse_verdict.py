@@ -151,7 +151,7 @@ class Page(html.parser.HTMLParser):
 
 def check_page(program, gradings, figures, python):
     write_sample(program.folder, 7)
-    words = (gradings / "appendix_B.csv", "--sample", "grains.dump", "contacts.dump", "--split", 0.5e-3, "--name", "a <b> & \"c\"")
+    words = (gradings / "appendix_B.csv", "--sample", "grains.dump", "contacts.dump", "--split", 0.5e-3, "--name", "a <b> & \"c\" $x_{ $5")
     program.must_run(*words, "--html", "report.html", "--output", "report.md", "--figures", "kept")
     text = (program.folder / "report.html").read_text(encoding="utf-8")
     check(text.startswith("<!DOCTYPE html>"), "the page begins with its type")
@@ -161,7 +161,7 @@ def check_page(program, gradings, figures, python):
     page.feed(text)
     page.close()
     check(not page.open, f"left open: {page.open}")
-    must_say(page.text, "a <b> & \"c\"", "Internally unstable, measured on the sample", "Fabric case I", "fluid-like")
+    must_say(page.text, "a <b> & \"c\" $x_{ $5", "Internally unstable, measured on the sample", "Fabric case I", "fluid-like")
     check(len(page.pictures) == 5, f"five figures, not {len(page.pictures)}")
     for picture in page.pictures:
         kind, _, data = picture.partition(",")

@@ -44,6 +44,7 @@ class Hdf5Series : public SnapshotSeries {
   [[noreturn]] void complain(const std::string& problem, const std::string& remedy) const;
   std::vector<double> numbers(const std::string& dataset, std::size_t columns) const;
   std::array<bool, 3> read_box(micromechanics::Packing& packing) const;
+  std::int64_t identifier_of(double value) const;
   void read_grains(micromechanics::Packing& packing) const;
   void read_contacts(micromechanics::Packing& packing, const Vec3& period) const;
 

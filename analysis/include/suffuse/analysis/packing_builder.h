@@ -29,4 +29,17 @@ std::string set_branch_and_force(const RawContact& raw, double reach, const Vec3
 /// larger than the box or solids that do not fit into the volume (units that do not belong together).
 std::string problem_of_grains(const micromechanics::Packing& packing);
 
+/// What is wrong with the contacts of a packing, or an empty text: a pair that is listed twice with one
+/// branch (two through different periodic faces are two contacts), a grain in contact with itself (but with
+/// its own image, a whole number of periods away), negative coefficients, limits or spring forces.
+std::string problem_of_contacts(const micromechanics::Packing& packing, const Vec3& period);
+
+/// How many rows of so many columns a file of so many bytes can have at most, at `least` bytes a value, and
+/// 1032 times as many where it is compressed (deflate's limit): what a header claims is not allocated unseen.
+std::size_t plausible_rows(std::int64_t claimed, std::int64_t bytes, std::size_t columns, bool compressed,
+                           std::size_t least = 2);
+
+/// Reads a number of a file as an identifier; none if it is no whole number from 1 to 2⁵³.
+std::optional<std::int64_t> identifier(double value);
+
 }  // namespace suffuse::analysis

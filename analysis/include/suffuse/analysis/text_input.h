@@ -27,6 +27,7 @@ class TextInput {
   /// Bytes taken from the disk so far, and the file's size.
   std::int64_t bytes_read() const;
   std::int64_t bytes() const { return bytes_; }
+  bool is_compressed() const;
 
  private:
   struct Source;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,5 +28,13 @@ struct InputProblem {
 
 /// Formats an InputProblem as one line and throws it as UserError.
 [[noreturn]] void throw_user_error(const InputProblem& problem);
+
+/// What the machine refused, as one line: a file's name too long, a loop of links, a folder that has
+/// vanished, a full disk, memory that there is not. Empty for anything else, which is the program's own
+/// mistake.
+std::string refusal_of_the_machine(const std::exception& failure);
+
+/// Throws UserError where what was printed has not arrived: a full disk behind the screen's output.
+void require_printed_output();
 
 }  // namespace suffuse

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace suffuse::analysis {
+
+/// Options of a subcommand that name files to be written. A file that is there already is not replaced unless
+/// --overwrite says so.
+class OutputOptions {
+ public:
+  /// Adds an option for a file; with the first one also --overwrite.
+  CLI::Option* add(CLI::App& command, const std::string& name, std::string& file,
+                   const std::string& description);
+  /// Throws UserError for the first file that is there, before anything is computed. `more`: files that
+  /// follow from other options.
+  void require_new(const std::string& who, const std::vector<std::string>& more = {}) const;
+
+ private:
+  std::vector<std::pair<std::string, const std::string*>> files_;
+  bool overwrite_ = false;
+};
+
+}  // namespace suffuse::analysis
