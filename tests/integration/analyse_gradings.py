@@ -130,12 +130,12 @@ def samples(run, gradings):
 def equal_spheres(run):
     # Nearly equal grains: Dc35 is the three-grain size in the dense state.
     run.write("equal.csv", "diameter_mm,mass_fraction\n1,0.5\n1.0000001,0.5\n")
-    result = run("constriction", "equal.csv", "--relative-density", 1, "--split", 0.5, "--distribution", "d.csv")
+    result = run("constriction", "equal.csv", "--relative-density", 1, "--split", 0.5, "--distribution", "d.csv", "--overwrite")
     expect(result.returncode == 0, f"equal grains: {result.stderr}")
     row = rows(run.folder / "d.csv")[35]
     expect(close(row["dense_by_surface_area_m"], (2 / math.sqrt(3) - 1) * 1e-3, 1e-5), "0.1547 D dense")
     expect(close(row["loose_by_surface_area_m"], (math.sqrt(2) - 1) * 1e-3, 1e-5), "0.4142 D loose, inscribed")
-    run("constriction", "equal.csv", "--loose-pore", "equal-area", "--split", 0.5, "--distribution", "d.csv")
+    run("constriction", "equal.csv", "--loose-pore", "equal-area", "--split", 0.5, "--distribution", "d.csv", "--overwrite")
     expect(close(rows(run.folder / "d.csv")[35]["loose_by_surface_area_m"], math.sqrt(4 / math.pi - 1) * 1e-3, 1e-5), "0.5227 D loose, by area")
 
 
