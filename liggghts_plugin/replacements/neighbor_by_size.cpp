@@ -48,7 +48,7 @@ void NeighborBySize::granular_by_size(NeighList* list) {
     history->dpage->reset();
   }
   for (int i = 0; i < owned; ++i) {
-    require_room(list, i);
+    if (pairs_.count(i) > oneatom) error->one(FLERR, "Neighbor list overflow, boost neigh_modify one");
     int* partners = list->ipage->vget();
     int* flags = history != nullptr ? history->ipage->vget() : nullptr;
     double* histories = history != nullptr ? history->dpage->vget() : nullptr;
@@ -64,10 +64,6 @@ void NeighborBySize::granular_by_size(NeighList* list) {
     history->dpage->vgot(count * history->dnum);
   }
   list->inum = owned;
-}
-
-void NeighborBySize::require_room(const NeighList*, int grain) const {
-  if (pairs_.count(grain) > oneatom) error->one(FLERR, "Neighbor list overflow, boost neigh_modify one");
 }
 
 int NeighborBySize::list_partners(NeighList* list, int grain, int* partners, int* flags,

@@ -31,7 +31,6 @@ class NeighborBySize : public Neighbor {
   void granular_by_size(NeighList* list);
   /// Writes the partners of one grain, and what is known of its contacts; returns how many.
   int list_partners(NeighList* list, int grain, int* partners, int* flags, double* histories) const;
-  void require_room(const NeighList* list, int grain) const;
 
   suffuse::grains::SizeClassPairs pairs_;
   bigint generation_ = 0;
