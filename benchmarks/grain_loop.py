@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""grain_loop.py --sample FILE [--suffuse PROGRAM] [--modulus PA] [--skins M ...] [--steps N] [--repeats N] [--ranks N] [--csv FILE]
+"""grain_loop.py --sample FILE [--copies NX NY NZ] [--only ours] [--suffuse PROGRAM] [--modulus PA] [--skins M ...] [--steps N] [--repeats N]
+[--ranks N] [--csv FILE]
 
-A step of a dense sample (restart file of scene 01) with our contact loop and neighbour lists, as a share of LIGGGHTS's own
-(`-suffix off`), in runs that take turns. Processor time of the whole process, less that of a run of no steps, so that other work on
+A step of a sample (restart file of scene 01, or its dump of grains, which may stand side by side as copies; springs are zero then)
+with our contact loop and neighbour lists, as a share of LIGGGHTS's own (`-suffix off`), in runs that take turns. Processor time of the whole process, less that of a run of no steps, so that other work on
 the machine counts little; the median of the pairs' ratios. Also: the contact loop alone, the lists alone, and memory.
 """
 import argparse
@@ -23,7 +24,7 @@ atom_modify map array
 communicate single vel yes
 boundary p p p
 newton off
-read_restart {sample}
+{read}
 neighbor {skin} bin
 neigh_modify delay 0
 hard_particles yes
@@ -44,7 +45,7 @@ VARIANTS = {"stock": ["-suffix", "off"], "ours": []}
 
 def run(options, folder, variant, skin, steps):
     """Processor seconds of all ranks, and what LIGGGHTS says: shares of its loop, lists, memory (MB, the largest process)."""
-    text = SCRIPT.format(sample=options.sample.resolve(), modulus=options.modulus, skin=skin, step=options.time_step, steps=steps)
+    text = SCRIPT.format(read=options.read, modulus=options.modulus, skin=skin, step=options.time_step, steps=steps)
     (folder / "in.benchmark").write_text(text)
     launcher = [str(ROOT / "scripts" / "mpirun"), str(options.ranks)] if options.ranks > 1 else []
     with open(folder / "screen", "w") as screen:
@@ -61,9 +62,57 @@ def run(options, folder, variant, skin, steps):
     return seconds, parts, int(found[-1]), usage.ru_maxrss / 1024, int(re.findall(r"with (\d+) atoms", log)[-1])
 
 
+def copied_dump(dump, copies, data):
+    """LIGGGHTS's data file of the last snapshot of a dump `id type x y z radius`, copied side by side."""
+    lines = dump.read_text().splitlines()
+    begin = max(k for k, line in enumerate(lines) if line.startswith("ITEM: TIMESTEP"))
+    count = int(lines[begin + 3])
+    low, high = zip(*([float(word) for word in line.split()[:2]] for line in lines[begin + 5:begin + 8]))
+    length = [b - a for a, b in zip(low, high)]
+    grains = [[float(word) for word in line.split()] for line in lines[begin + 9:begin + 9 + count]]
+    images = [(i, j, k) for i in range(copies[0]) for j in range(copies[1]) for k in range(copies[2])]
+    with open(data, "w") as file:
+        file.write(f"copies of {dump.name}\n\n{count * len(images)} atoms\n1 atom types\n\n")
+        for axis, name in enumerate("xyz"):
+            file.write(f"{low[axis]:.17g} {low[axis] + copies[axis] * length[axis]:.17g} {name}lo {name}hi\n")
+        file.write("\nAtoms\n\n")
+        for number, image in enumerate(images):
+            for grain in grains:
+                place = " ".join(f"{grain[2 + axis] + image[axis] * length[axis]:.17g}" for axis in range(3))
+                file.write(f"{number * count + int(grain[0])} 1 {2 * grain[5]:.17g} 2650 {place}\n")
+
+
+PARTS = ("Pair", "Neigh", "Comm", "Other", "Modify")
+
+
+def measured(options, folder, skin):
+    """A row of the table: least time of a step, and where both loops ran the median ratio of the pairs."""
+    start = {variant: run(options, folder, variant, skin, 0)[0] for variant in VARIANTS}
+    seen = {variant: [] for variant in VARIANTS}
+    for _ in range(options.repeats):
+        for variant in VARIANTS:
+            seen[variant].append(run(options, folder, variant, skin, options.steps))
+    a_step = {v: [1e3 * (r[0] - start[v]) / options.steps for r in seen[v]] for v in VARIANTS}
+    least = {v: {part: min(r[1].get(part, 0) for r in seen[v]) * 1e3 / options.steps for part in PARTS} for v in VARIANTS}
+    last = {v: seen[v][-1] for v in VARIANTS}
+    any_one = next(iter(last.values()))
+    row = {"grains": any_one[4], "ranks": options.ranks, "skin_m": skin}
+    for v in VARIANTS:
+        row |= {f"step_{v}_ms": min(a_step[v]), f"grain_step_{v}_ns": 1e6 * min(a_step[v]) / any_one[4], f"lists_{v}": last[v][2], f"memory_{v}_mb": last[v][3]}
+    if len(VARIANTS) == 2:
+        row |= {"ratio": statistics.median(o / s for o, s in zip(a_step["ours"], a_step["stock"])),
+                "pair_ratio": least["ours"]["Pair"] / least["stock"]["Pair"], "memory_ratio": last["ours"][3] / last["stock"][3]}
+    print("  ".join(f"{key} {value:.4g}" for key, value in row.items()), flush=True)
+    for v in VARIANTS:
+        print(f"    {v}: ms a step " + ", ".join(f"{part} {value:.2f}" for part, value in least[v].items()), flush=True)
+    return row
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--sample", type=pathlib.Path, required=True)
+    parser.add_argument("--copies", type=int, nargs=3, default=[1, 1, 1], help="of a dump, side by side")
+    parser.add_argument("--only", choices=VARIANTS, help="no ratio: one variant alone")
     parser.add_argument("--suffuse", default=str(ROOT / "build" / "release" / "bin" / "suffuse"))
     parser.add_argument("--modulus", type=float, default=0.7e9)
     parser.add_argument("--time-step", type=float, default=5.9e-8)
@@ -74,26 +123,17 @@ def main():
     parser.add_argument("--csv", type=pathlib.Path)
     options = parser.parse_args()
     rows = []
+    if options.only:
+        for variant in [v for v in VARIANTS if v != options.only]:
+            del VARIANTS[variant]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        options.read = f"read_restart {options.sample.resolve()}"
+        if options.sample.suffix == ".dump":
+            copied_dump(options.sample, options.copies, folder / "copies.data")
+            options.read = "read_data copies.data"
         for skin in options.skins:
-            start = {variant: run(options, folder, variant, skin, 0)[0] for variant in VARIANTS}
-            seen = {variant: [run(options, folder, variant, skin, options.steps) for _ in range(1)] for variant in VARIANTS}
-            for _ in range(options.repeats - 1):
-                for variant in VARIANTS:
-                    seen[variant].append(run(options, folder, variant, skin, options.steps))
-            a_step = {v: [1e3 * (r[0] - start[v]) / options.steps for r in seen[v]] for v in VARIANTS}
-            ratio = statistics.median(o / s for o, s in zip(a_step["ours"], a_step["stock"]))
-            least = {v: {part: min(r[1].get(part, 0) for r in seen[v]) * 1e3 / options.steps for part in ("Pair", "Neigh", "Comm", "Other", "Modify")}
-                     for v in VARIANTS}
-            last = {v: seen[v][-1] for v in VARIANTS}
-            row = {"grains": last["ours"][4], "ranks": options.ranks, "skin_m": skin, "step_stock_ms": min(a_step["stock"]), "step_ours_ms": min(a_step["ours"]),
-                   "ratio": ratio, "pair_ratio": least["ours"]["Pair"] / least["stock"]["Pair"], "lists": last["ours"][2], "lists_stock": last["stock"][2],
-                   "memory_ratio": last["ours"][3] / last["stock"][3]}
-            rows.append(row)
-            print("  ".join(f"{key} {value:.4g}" for key, value in row.items()), flush=True)
-            for v in VARIANTS:
-                print(f"    {v}: ms a step " + ", ".join(f"{part} {value:.2f}" for part, value in least[v].items()), flush=True)
+            rows.append(measured(options, folder, skin))
     if options.csv:
         with open(options.csv, "w", newline="") as file:
             writer = csv.DictWriter(file, rows[0].keys())

@@ -12,6 +12,7 @@
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
 #include "commands/sample_command.h"
+#include "commands/shear_command.h"
 #include "commands/verdict_command.h"
 #include "suffuse/common/error.h"
 
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_fluidisation(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
+  suffuse::analysis::add_shear(app);
   suffuse::analysis::add_verdict(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here

@@ -63,16 +63,21 @@ std::unique_ptr<SnapshotSeries> ReadOptions::open() {
 
 void SplitOption::add_to(CLI::App& command) {
   command.add_option("--split", text,
-                     "fines are the grains of a smaller diameter, m; gap: in the widest gap of the sizes");
+                     "fines are the grains of a smaller diameter, m; gap: in the widest gap of the sizes; "
+                     "20%: the finest of 20 % of the mass");
 }
 
 std::optional<double> SplitOption::value(const micromechanics::Packing& packing,
                                          const std::string& who) const {
   if (text.empty()) return std::nullopt;
   if (text == "gap") return split_in_the_gap(packing, who);
-  double diameter = 0;
+  double percent = 0, diameter = 0;
+  if (text.back() == '%' && parse_number(text.substr(0, text.size() - 1), percent) && percent > 0 &&
+      percent < 100)
+    return split_at_finer(packing, percent / 100, who);
   if (!parse_number(text, diameter) || !(diameter > 0))
-    throw_user_error({who, "--split", text, "be a diameter > 0 in m, or gap", "for example 0.3e-3"});
+    throw_user_error({who, "--split", text, "be a diameter > 0 in m, gap, or a share of the mass such as 20%",
+                      "for example 0.3e-3"});
   return diameter;
 }
 

@@ -63,12 +63,25 @@ Snapshot final_state(const SampleFolder& sample, const std::string& who) {
 /// The criteria on the grains as they are in the sample.
 struct GradingRatios {
   std::optional<double> kezdi, kenney_lau, constriction;
+  std::optional<double> coordination, stress_reduction;  ///< Z and alpha that eqs 4.7, 4.8 give for them
 };
 
-GradingRatios ratios_of(const Snapshot& snapshot, double relative_density) {
+Grading grading_of(const Snapshot& snapshot) {
   std::vector<double> diameters;
   for (const micromechanics::Grain& grain : snapshot.packing.grains) diameters.push_back(2 * grain.radius);
-  const Grading grading = Grading::from_grains(diameters);
+  return Grading::from_grains(diameters);
+}
+
+/// The thesis's limits; whole grains put a nominal 25 % of fines a little beside it (11b: 0.2497).
+micromechanics::ConstrictionLimits limits_for(const Grading& grading) {
+  constexpr double of_whole_grains = 0.005;
+  micromechanics::ConstrictionLimits limits;
+  if (grading.gap() && grading.gap()->finer > limits.fines_split - of_whole_grains)
+    limits.fines_split = std::min(limits.fines_split, grading.gap()->finer);
+  return limits;
+}
+
+GradingRatios ratios_of(const Grading& grading, double relative_density) {
   GradingRatios ratios;
   constexpr double from_finer =
       0.05;  // so read, 7a's printed 4.720 comes out, too (docs/analysis/criteria.md)
@@ -77,11 +90,32 @@ GradingRatios ratios_of(const Snapshot& snapshot, double relative_density) {
   micromechanics::ConstrictionOptions options;
   options.relative_density = relative_density;
   try {
-    ratios.constriction = micromechanics::analyse_constrictions(grading, options).ratio();
+    const micromechanics::ConstrictionAnalysis analysis =
+        micromechanics::analyse_constrictions(grading, options, limits_for(grading));
+    ratios.constriction = analysis.ratio();
+    ratios.coordination = analysis.coordination;
+    ratios.stress_reduction = analysis.stress_reduction;
   } catch (const UserError&) {
     // No fraction to split off, as in grains of one size: the ratio does not apply and stays empty.
   }
   return ratios;
+}
+
+/// Table 4.1's alpha of soils with 25 % of fines or more is not that of all fines: it is that of the finest
+/// 20 % (dense) or 25 % (loose, medium), at which the thesis splits these soils for the constriction ratio
+/// (section 4.3); Table 5.1 prints that of all fines of the same samples. None where the split is the gap.
+std::optional<double> alpha_of_finest(const Snapshot& snapshot, const Grading& grading,
+                                      double relative_density, const std::string& who) {
+  if (!grading.gap()) return std::nullopt;
+  const double finer = micromechanics::thesis_split(grading, relative_density, limits_for(grading)).finer;
+  if (finer == grading.gap()->finer) return std::nullopt;
+  MeasureSettings settings;
+  settings.split = split_at_finer(snapshot.packing, finer, who);
+  return value_of(ContactMeasurer(settings).measure(snapshot), "alpha_pair_halves");
+}
+
+std::optional<double> predicted(double (*equation)(double), std::optional<double> ratio) {
+  return ratio ? std::optional<double>(equation(*ratio)) : std::nullopt;
 }
 
 Comparison compare(const SampleFolder& sample, const ThesisRow& row, Table table, const std::string& who) {
@@ -92,18 +126,27 @@ Comparison compare(const SampleFolder& sample, const ThesisRow& row, Table table
   const Record record = ContactMeasurer(settings).measure(snapshot);
   const auto measured = [&](const char* name) { return value_of(record, name); };
   Comparison result{&row, sample, {}, {}, {}};
+  std::optional<double> alpha_finest;
   if (table == Table::table_4_1) {
-    const GradingRatios ratios = ratios_of(snapshot, row.relative_density);
+    const Grading grading = grading_of(snapshot);
+    const GradingRatios ratios = ratios_of(grading, row.relative_density);
+    alpha_finest = alpha_of_finest(snapshot, grading, row.relative_density, who);
     result.quantities = {{"kezdi_ratio", ratios.kezdi, row.kezdi},
                          {"constriction_ratio", ratios.constriction, row.constriction},
                          {"kenney_lau_ratio", ratios.kenney_lau, row.kenney_lau},
+                         {"coordination_eq_4_7", ratios.coordination,
+                          predicted(micromechanics::predicted_coordination, row.constriction)},
+                         {"alpha_eq_4_8", ratios.stress_reduction,
+                          predicted(micromechanics::predicted_stress_reduction, row.constriction)},
                          {"porosity", measured("porosity"), row.porosity}};
   } else {
     result.quantities = {{"void_ratio", measured("void_ratio"), row.void_ratio}};
   }
   result.quantities.push_back({"grains", measured("grains"), row.grains});
   result.quantities.push_back({"coordination_number", measured("coordination_number"), row.coordination});
-  result.quantities.push_back({"alpha_pair_halves", measured("alpha_pair_halves"), row.alpha});
+  result.quantities.push_back(
+      {"alpha_pair_halves", measured("alpha_pair_halves"), alpha_finest ? std::nullopt : row.alpha});
+  if (alpha_finest) result.quantities.push_back({"alpha_finest_fraction", alpha_finest, row.alpha});
   result.quantities.push_back({"alpha_contact_point", measured("alpha_contact_point"), std::nullopt});
   result.quantities.push_back({"mean_stress_pa", measured("mean_stress_pa"), 200e3});
   result.verdict = verdict_of(measured("coordination_number"), measured("alpha_pair_halves"));
@@ -201,16 +244,20 @@ void run(const Options& options, Table table) {
         fmt::format("{}: no folder has a sample.toml of this table; a sample by "
                     "input_scripts/01_isotropic_compression leaves one",
                     who));
-  std::size_t rows_run = 0;
+  std::size_t rows_run = 0, alike = 0;
   for (const ThesisRow& row : rows) {  // in the order of the table
     std::vector<Comparison> of_row;
     std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(of_row),
                  [&](const Comparison& comparison) { return comparison.row == &row; });
-    for (const Comparison& comparison : of_row) print(comparison);
+    for (const Comparison& comparison : of_row) {
+      print(comparison);
+      alike += comparison.verdict == comparison.thesis_verdict ? 1 : 0;
+    }
     if (of_row.size() > 1) print_mean(of_row);
     rows_run += of_row.empty() ? 0 : 1;
   }
-  fmt::print("{} of {} rows have been run\n", rows_run, rows.size());
+  fmt::print("{} of {} rows have been run; {} of {} samples have the thesis's verdict\n", rows_run,
+             rows.size(), alike, comparisons.size());
   if (!options.output.empty()) write_csv(options.output, comparisons, who);
 }
 

@@ -25,6 +25,15 @@ using namespace micromechanics;
 /// Text of six digits moves f_T and f_N by up to 5e-6 of themselves each.
 constexpr double kToleranceOfText = 1e-5;
 constexpr double kNarrowestGap = 1.3;
+/// Diameters that differ by less, relative, are one size.
+constexpr double kSameSize = 1e-9;
+
+std::vector<double> sorted_diameters(const Packing& packing) {
+  std::vector<double> diameters;
+  for (const Grain& grain : packing.grains) diameters.push_back(2 * grain.radius);
+  std::sort(diameters.begin(), diameters.end());
+  return diameters;
+}
 
 void add(Record& record, std::initializer_list<Entry> entries) {
   record.insert(record.end(), entries);
@@ -180,9 +189,7 @@ std::optional<double> value_of(const Record& record, const char* name) {
 }
 
 double split_in_the_gap(const Packing& packing, const std::string& who) {
-  std::vector<double> diameters;
-  for (const Grain& grain : packing.grains) diameters.push_back(2 * grain.radius);
-  std::sort(diameters.begin(), diameters.end());
+  const std::vector<double> diameters = sorted_diameters(packing);
   double widest = 1, split = 0;
   for (std::size_t i = 1; i < diameters.size(); ++i) {
     const double ratio = diameters[i] / diameters[i - 1];
@@ -193,6 +200,24 @@ double split_in_the_gap(const Packing& packing, const std::string& who) {
   if (widest < kNarrowestGap)
     throw_user_error({who, "--split", "gap", fmt::format("find sizes {} times apart or more", kNarrowestGap),
                       fmt::format("here they are {:.3g} times apart at most: give a diameter in m", widest)});
+  return split;
+}
+
+double split_at_finer(const Packing& packing, double finer, const std::string& who) {
+  const std::vector<double> diameters = sorted_diameters(packing);
+  double solid = 0;
+  for (const double d : diameters) solid += micromechanics::sphere_volume(d / 2);
+  double below = 0, nearest = 1, split = 0;
+  for (std::size_t i = 1; i < diameters.size(); ++i) {
+    below += micromechanics::sphere_volume(diameters[i - 1] / 2);
+    const double miss = std::abs(below / solid - finer);
+    if (!(diameters[i] > diameters[i - 1] * (1 + kSameSize)) || miss >= nearest) continue;
+    nearest = miss;
+    split = std::sqrt(diameters[i] * diameters[i - 1]);
+  }
+  if (split == 0)
+    throw_user_error(
+        {who, "--split", fmt::format("{:g}%", 100 * finer), "find two sizes of grains", "here is one"});
   return split;
 }
 

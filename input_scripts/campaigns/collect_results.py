@@ -39,7 +39,18 @@ def table_rows(options, table):
              "relative_difference": row["relative_difference"], "command": command_of(pathlib.Path(row["folder"]))} for row in rows]
 
 
-def other_rows(folder):
+def read_off(series, analyse):
+    """What chapter 5 reads off the curves of a shear test; nothing from one too short for that."""
+    with tempfile.TemporaryDirectory() as scratch:
+        output = pathlib.Path(scratch) / "shear.csv"
+        done = subprocess.run([analyse, "shear", str(series), "--output", str(output)], capture_output=True, text=True)
+        if done.returncode != 0:
+            print(f"collect_results: {done.stderr.strip()}")
+            return []
+        return [(row["quantity"], row["value"]) for row in rows_of(output)]
+
+
+def other_rows(folder, analyse):
     def rows(source, values, command):
         return [{"source": source, "case": folder.name, "quantity": name, "measured": value, "thesis": "", "relative_difference": "", "command": command}
                 for name, value in values if value != ""]
@@ -52,6 +63,7 @@ def other_rows(folder):
         # A shear that was continued does not know where it started: that is the state at rest.
         values = [(row["quantity"], row["value"]) for row in rows_of(folder / "shear" / "shear_result.csv") if not row["quantity"].endswith("_start")]
         found += rows("shear", values, command_of(folder / "shear"))
+        found += rows("shear curves", read_off(folder / "shear" / "shear.csv", analyse), command_of(folder / "shear"))
     return found
 
 
@@ -63,7 +75,7 @@ def main():
     options = parser.parse_args()
     rows = table_rows(options, "table-4-1") + table_rows(options, "table-5-1")
     for folder in sorted(path.parent for path in options.samples.glob("*/sample.toml")):
-        rows += other_rows(folder)
+        rows += other_rows(folder, options.analyse)
     with open(options.output, "w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()

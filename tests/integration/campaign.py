@@ -66,7 +66,9 @@ def check_results(folder):
     expect(found["table-4-1", "A30", "porosity"]["thesis"] == "0.253", "the row of 8b loose")
     expect(found["table-4-1", "A20", "grains"]["measured"] == "300", "all of the grains")
     expect(float(found["shear", "A20", "axial_strain"]["measured"]) >= 0.0199, "sheared to 2 %")
-    for name in ("figure_4_4.png", "figure_5_4.png"):
+    for key in (("table-4-1", "A30", "alpha_finest_fraction"), ("table-4-1", "A20", "coordination_eq_4_7"), ("shear curves", "A20", "peak_stress_ratio")):
+        expect(key in found and float(found[key]["measured"]) > 0, f"no {key} in the results")
+    for name in ("figure_4_4.png", "figure_4_5.png", "figure_4_6.png", *(f"figure_5_{k}.png" for k in (3, 4, 5, 6, 7, "7c", "8a", "8b", 9, 10, 11, 12))):
         expect((folder / name).stat().st_size > 5000, f"no {name}")
 
 

@@ -57,6 +57,27 @@ def check_results(program):
     check([round(float(row["density_normal"]) * 0.5, 9) for row in pdf[:4]] == [0, round(2 / 3, 9), 0, round(1 / 3, 9)], f"force PDF {pdf[:4]}")
 
 
+def check_split_by_share(program):
+    """Layers of 0.9, 0.95 and 1 times the radius hold 28, 33 and 39 % of the solid: a share cuts where it comes nearest."""
+    lines = packing(1)[0].splitlines()
+    for k in range(9, len(lines)):
+        words = lines[k].split()
+        layer = int(float(words[3]) / (2 * RADIUS))
+        lines[k] = " ".join([*words[:4], f"{RADIUS * (0.9, 0.95, 1)[layer]:.6g}"])
+    (program.folder / "layers.dump").write_text("\n".join(lines) + "\n")
+    (program.folder / "layers_contacts.dump").write_text(packing(1)[1])
+    for share, diameter, fines in (("20%", 0.925e-3, 0.282), ("60%", 0.975e-3, 0.613), ("40%", 0.925e-3, 0.282), ("99%", 0.975e-3, 0.613)):
+        rows = []
+        for split in (share, diameter):
+            program.must_run("contacts", "layers.dump", "layers_contacts.dump", "--split", split, "--output", "layers.csv", "--overwrite")
+            rows += list(csv.DictReader(open(program.folder / "layers.csv")))
+        check(rows[0] == rows[1] and rows[0]["alpha_pair_halves"] != "", f"--split {share} is not --split {diameter}: {rows}")
+        check(abs(float(rows[0]["fines_solid_share"]) - fines) < 1e-3, f"--split {share}: {rows[0]['fines_solid_share']} are fines, not {fines}")
+    program.must_refuse(["contacts", "c.dump", "g.dump", "--split", "20%"], "--split", "one")
+    for wrong in ("0%", "100%", "-5%", "%", "x%"):
+        program.must_refuse(["contacts", "layers.dump", "layers_contacts.dump", "--split", wrong], "--split", wrong)
+
+
 def check_rose(program, has_figures):
     words = ["rose", "c.dump", "g.dump", "--plane", "xz", "--output", "rose.csv", "--fits", "fits.csv", "--sphere", "sphere.csv", "--cells", "60"]
     out = program.must_run(*words, *(["--figure", "rose.svg", "--sphere-figure", "sphere.png"] if has_figures else []))
@@ -83,6 +104,7 @@ def check_reproduce(program):
     toml.write_text('table_4_1 = "1"\nstate = "loose"\nsplit_m = 1e-4\n')
     out = program.must_run("reproduce", "table-4-1", ".", "--output", "table.csv")
     check("1 loose" in out and "1 of 63 rows" in out and "8b" not in out, out)
+    check("0 of 1 samples have the thesis's verdict" in out, out)  # stable there; here, without fines, unknown
     rows = {row["quantity"]: row for row in csv.DictReader(open(folder / "table.csv"))}
     check(float(rows["coordination_number"]["measured"]) == 6 and rows["coordination_number"]["thesis"] == "4.317", f"{rows}")
     check(rows["kenney_lau_ratio"]["thesis"] == "" and rows["alpha_pair_halves"]["measured"] == "", "a number where there is none")
@@ -195,6 +217,7 @@ def main():
         check_rose(program, has_figures)
         check_mistakes(program)
         check_hostile(program)
+        check_split_by_share(program)
         check_reproduce(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
 

@@ -63,4 +63,9 @@ std::optional<double> value_of(const Record& record, const char* name);
 /// split in the gap of a gap-graded soil. Throws UserError where the widest ratio is below 1.3: no gap.
 double split_in_the_gap(const micromechanics::Packing& packing, const std::string& who);
 
+/// The diameter between two sizes of a packing below which the share `finer` of the solid lies as nearly as
+/// its sizes allow, m: the split of a fraction that is named by its mass. `finer` in (0, 1); throws UserError
+/// where all grains are of one size.
+double split_at_finer(const micromechanics::Packing& packing, double finer, const std::string& who);
+
 }  // namespace suffuse::analysis
