@@ -52,6 +52,9 @@ ShearSeries series_of(const std::string& path) {
   series.coarse_coordination = if_there("coordination_coarse_coarse");
   series.stress_reduction = if_there("alpha_pair_halves");
   series.sliding_share = if_there("sliding_share");
+  if (series.axial_strain.back() < 0)  // extension: by the magnitudes of strain and deviator
+    for (std::vector<double>* column : {&series.axial_strain, &series.deviator})
+      for (double& value : *column) value = -value;
   return series;
 }
 
