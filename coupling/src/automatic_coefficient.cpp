@@ -30,6 +30,12 @@ double error_at(double cells, double MeasuredError::*error) {
 
 }  // namespace
 
+double CoefficientLaw::of_sphere(double diameter) const {
+  constexpr double of_a_point = 10;
+  const double below_a_cell = diameter < 1 ? std::pow(diameter, -1.5) - 1 : 0;
+  return constant + single / diameter + of_a_point * below_a_cell;
+}
+
 double CoefficientLaw::operator()(double diameter, double surface_per_pore) const {
   return std::min(of_sphere(diameter) + of_pore(surface_per_pore), kLargestCoefficient);
 }

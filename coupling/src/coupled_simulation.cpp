@@ -46,6 +46,13 @@ int checked_substeps(int asked, const lbm::Units& units, double grain_step) {
   return substeps;
 }
 
+/// How far the parts of a grain are from its centre, over how far the centres of its cells are, which mapping
+/// takes for them. A grain below two cells is nearer to its centre than those: with their arms its spin would
+/// give it many times the moment that its own surface could, and the grain would spin up without bound.
+double share_of_arms(double radius) {
+  return std::min(1., radius);
+}
+
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total), start_(MPI_Wtime()) {}
@@ -197,6 +204,7 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
       sphere.angular_velocity[a] = grains.angular_velocity[3 * n + a] * turn;
     }
     sphere.radius = grains.radius[n] * length;
+    for (double& spin : sphere.angular_velocity) spin *= share_of_arms(sphere.radius);
     sphere.id = grains.id[n];
     sphere.coefficient = settings_.solids.automatic_coefficient ? law_.of_sphere(2 * sphere.radius)
                                                                 : settings_.solids.cells.coefficient;
@@ -211,11 +219,12 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
     values->assign(3 * static_cast<std::size_t>(grains.total), 0);
   for (std::size_t n = 0; n < mapping_.loads().size(); ++n) {
     const LatticeLoad& load = mapping_.loads()[n];
+    const double arms = share_of_arms(grains.radius[n] / metre);
     for (std::size_t a = 0; a < 3; ++a) {
       force_[3 * n + a] = load.force[a] * newton;
-      torque_[3 * n + a] = load.torque[a] * newton * metre;
+      torque_[3 * n + a] = load.torque[a] * newton * metre * arms;
       lead_[3 * n + a] = load.lead[a] * newton * second;
-      spin_lead_[3 * n + a] = load.spin_lead[a] * newton * metre * second;
+      spin_lead_[3 * n + a] = load.spin_lead[a] * newton * metre * second * arms;
     }
   }
   grains_.sum_over_copies(force_, torque_);
@@ -233,8 +242,8 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
   rule.average = settings_.average_force;
   rule.rotation = settings_.effects.rotation != Switch::off;
-  const VirtualMassRule virtual_rule{settings_.virtual_mass, units_.density(),
-                                     lbm::viscosity_of(units_.relaxation_time()), units_.spacing()};
+  const VirtualMassRule virtual_rule{settings_.virtual_mass, units_.density(), units_.relaxation_time(),
+                                     units_.spacing(), settings_.solids.cells};
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
     const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};

@@ -2,6 +2,8 @@
 
 #include <optional>
 
+#include "suffuse/lbm/partial_solids.h"
+
 namespace suffuse::coupling {
 
 /// How much inertia of fluid is added to both sides of a grain's equations of motion,
@@ -17,8 +19,9 @@ struct VirtualMassRule {
   /// grains that need it.
   std::optional<double> coefficient;
   double fluid_density = 1000;  ///< kg/m^3
-  double viscosity = 0;         ///< lattice units, (tau - 1/2)/3
-  double spacing = 0;           ///< m
+  double relaxation_time = 1;
+  double spacing = 0;  ///< m
+  lbm::PartialSolidSettings cells;
 };
 
 struct VirtualInertia {
@@ -36,11 +39,22 @@ inline constexpr double kPredictionRate = 0.25;
 /// 9 nu/(2 a^2) (docs key: landaulifshitz1987, problem 7 of section 24).
 double response_coefficient(double radius, double viscosity);
 
+/// What the cells of a sphere below two cells a diameter can answer in one step, in masses of the displaced
+/// fluid: twice the share B of their fluid that the solid takes along (solid_weight), over the solid in them.
+/// Much below a cell it is 6 k nu, however small the sphere: a point force, whose fluid is hardly set in
+/// motion. Divided by 1 - radius^2, and infinite from radius 1 on: larger spheres set their fluid in motion
+/// in the course of some steps, and response_coefficient has it right.
+double cell_response_coefficient(double radius, const lbm::PartialSolidSettings& cells,
+                                 double relaxation_time);
+
 /// The same for rotation, in moments of inertia of the displaced fluid: 10 sqrt(nu/pi)/a + 15 nu/a^2.
 double rotational_response_coefficient(double radius, double viscosity);
 
-/// Of a sphere of `radius` (m) and `mass` (kg). The estimate is for a lone sphere; grains get 1.5 times it
-/// from C m_f > 0.4 m on, as neighbours make the fluid's answer stiffer.
+/// Of a sphere of `radius` (m) and `mass` (kg): by the smaller of response_coefficient and
+/// cell_response_coefficient, the latter m_f/m times for grains that are lighter than the fluid. The estimate
+/// is for a lone sphere; grains get 1.5 times it from C m_f > 0.4 m on, as neighbours make the fluid's answer
+/// stiffer. More would do harm: after a collision a grain goes on being accelerated by what the virtual mass
+/// has more than the fluid's answer.
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass);
 
 }  // namespace suffuse::coupling
