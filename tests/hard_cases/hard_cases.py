@@ -9,6 +9,7 @@ import argparse
 import importlib.util
 import pathlib
 import re
+import subprocess
 import sys
 import tempfile
 import time
@@ -41,6 +42,12 @@ class Bench:
         code, screen = self.run(text, ranks, name, timeout)
         self.expect(code == 0, f"ended with code {code}:\n{screen[-2500:]}")
         return screen
+
+    def with_h5py(self, text):
+        """Numbers that a Python with h5py (Debian's) prints in the folder."""
+        done = subprocess.run(["/usr/bin/python3", "-c", text], cwd=self.folder, capture_output=True, text=True)
+        self.expect(done.returncode == 0, done.stderr)
+        return list(map(float, done.stdout.split()))
 
     def series(self, name="flow.csv"):
         return columns(self.folder / name)
@@ -91,6 +98,7 @@ def main():
     parser.add_argument("--full", action="store_true")
     parser.add_argument("--report", type=pathlib.Path)
     options = parser.parse_args()
+    options.suffuse, options.mpirun = (str(pathlib.Path(path).resolve()) for path in (options.suffuse, options.mpirun))
     results, failures = {}, []
     for name in options.case:
         try:
