@@ -22,7 +22,7 @@ def alone(bench, preset, cells, shift):
     volume = math.pi / 6 * diameter ** 3
     pull, box = 1650 * volume * weight, size[0] * size[1] * size[2]
     # The mean flow of fluid and grain is zero: the gradient balances the weight.
-    water.lines += f"\nlbm force pressure_gradient 0 0 {-pull / box:.12g}"
+    water.lines += f"\nlbm force pressure_gradient 0 0 {pull / box:.12g}"
     bench.must_run(scene(bench, water, [grain([0.5 * s + shift * water.spacing for s in size], diameter)],
                          f"lbm run 0.3\n{DUMP}run 0\n", extra=f"fix pull all addforce 0 0 {-pull:.12g}"))
     speed = last_dump(bench.folder / "grains.dump")["vz"][0]

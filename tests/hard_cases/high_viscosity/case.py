@@ -18,7 +18,7 @@ def terminal(bench, preset, tau):
     size = water.size
     pull = 1650 * 3.14159265358979 / 6 * diameter ** 3 * weight
     back = pull / (size[0] * size[1] * size[2])
-    water.lines += f"\nlbm force pressure_gradient 0 0 {-back:.12g}"
+    water.lines += f"\nlbm force pressure_gradient 0 0 {back:.12g}"
     text = scene(bench, water, [grain([0.5 * s + 0.21 * water.spacing for s in size], diameter)],
                  f"lbm run 1.5\n{DUMP}run 0\n", extra=f"fix pull all addforce 0 0 {-pull:.12g}")
     bench.must_run(text)
