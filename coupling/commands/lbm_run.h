@@ -29,12 +29,14 @@ class LbmRun {
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
+  /// `walls`: lines of the manifest about them.
   void run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-           std::optional<double> continue_after);
+           const std::vector<std::string>& walls, std::optional<double> continue_after);
 
  private:
   void begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
-             std::optional<double> continue_after);
+             const std::vector<std::string>& walls, std::optional<double> continue_after);
+  void refuse_grains_behind_walls() const;
   void advance(long step, bool is_last);
   bool look(long step, const RunRequest& request);
   std::string interruption_text(int signal);

@@ -112,6 +112,10 @@ bool Fluid::is_closed(const Index3& cell) const {
   return core_->is_closed(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
 }
 
+bool Fluid::has_closed_cells() const {
+  return core_->has_closed();
+}
+
 PartialSolidArrays Fluid::use_partial_solids(const PartialSolidSettings& settings) {
   return core_->use_partial_solids(settings);
 }

@@ -36,6 +36,7 @@ class FluidCoreBase {
     const CellBox& box = decomposition.local_box();
     return closed_[static_cast<std::size_t>(x + box.extent(0) * (y + box.extent(1) * z))] != 0;
   }
+  bool has_closed() const { return !closed_.empty(); }
   /// No fluid, but for what a partly covered cell leaves open.
   bool is_solid(int x, int y, int z) const { return solid_label(x, y, z) != 0 || is_closed(x, y, z); }
   virtual Vec3 local_solid_force(std::uint8_t label) const = 0;

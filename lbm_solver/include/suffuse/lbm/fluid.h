@@ -72,8 +72,9 @@ class Fluid {
   /// Walls between cells from the next step on, instead of those before. What closed cells hold has no
   /// meaning: the caller covers them (use_partial_solids) so that it stays at rest. Collective.
   void set_walls(const Walls& walls);
-  /// Is a cell of this rank behind walls?
+  /// Is a cell of this rank behind walls? And any cell of any rank?
   bool is_closed(const Index3& cell) const;
+  bool has_closed_cells() const;
 
   /// From now on cells may be covered in part, by whatever the caller writes to the arrays (all zero at
   /// first) between steps. They stay valid as long as the fluid, or until the next call of this function. Not

@@ -1,0 +1,127 @@
+#include "water_walls.h"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "checkpoint_contents.h"
+#include "suffuse/common/error.h"
+#include "suffuse/lbm/wall_shapes.h"
+#include "suffuse/lbm/wall_spaces.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+lbm::Index3 cell_of(const Vec3& point, const Vec3& origin, double spacing, const lbm::Fluid& fluid) {
+  lbm::Index3 cell{};
+  for (int a = 0; a < 3; ++a) {
+    const auto at = static_cast<std::size_t>(a);
+    const int cells = fluid.decomposition().cells()[at];
+    constexpr double far = 1e9;  // lost grains are told elsewhere
+    cell[at] = static_cast<int>(std::clamp(std::floor((point[a] - origin[a]) / spacing), -far, far));
+    if (fluid.settings().faces[2 * at].kind == lbm::FaceKind::periodic)
+      cell[at] = (cell[at] % cells + cells) % cells;
+  }
+  return cell;
+}
+
+/// Cells whose spaces hold water; none: all spaces do.
+std::vector<lbm::Index3> wet_cells(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings,
+                                   const LiggghtsPort& port, const CoupledSimulation& simulation) {
+  using Water = WallSettings::Water;
+  std::vector<Vec3> points;
+  if (settings.water == Water::at_points) points = settings.points;
+  if (settings.water == Water::with_grains && !inserts_grains(lmp)) points = port.centres();
+  std::vector<lbm::Index3> cells;
+  for (const Vec3& point : points) {
+    cells.push_back(cell_of(point, simulation.origin(), simulation.units().spacing(), simulation.fluid()));
+    for (std::size_t a = 0; a < 3 && settings.water == Water::at_points; ++a)
+      if (cells.back()[a] < 0 || cells.back()[a] >= simulation.fluid().decomposition().cells()[a])
+        throw_user_error({"lbm walls", "water at", fmt::format("{:g} {:g} {:g}", point[0], point[1], point[2]),
+                          "lie in the fluid", "give a point (m) on the side of the walls that holds water"});
+  }
+  return cells;
+}
+
+/// On which face of the water does a plane lie? Nothing if on none.
+std::optional<lbm::Face> face_under(const lbm::WallShape& shape, const lbm::Index3& cells) {
+  const auto* plane = std::get_if<lbm::PlaneWall>(&shape);
+  if (plane == nullptr) return std::nullopt;
+  const double high = cells[static_cast<std::size_t>(plane->axis)];
+  if (std::abs(plane->position) < lbm::kOnFace) return lbm::face_at(plane->axis, false);
+  if (std::abs(plane->position - high) < lbm::kOnFace) return lbm::face_at(plane->axis, true);
+  return std::nullopt;
+}
+
+std::string state_text(const ScriptWall& wall, bool acts, const lbm::Fluid& fluid) {
+  if (wall.open) return "open to water, as asked for";
+  if (acts) return "solid for water";
+  if (const auto face = face_under(wall.shape, fluid.decomposition().cells()))
+    return fmt::format("on face {}, which is {} for water", lbm::name_of(*face),
+                       lbm::name_of(fluid.settings().faces[static_cast<std::size_t>(*face)].kind));
+  return "outside of the water, or on its faces";
+}
+
+/// Share of all cells that lie behind walls. Collective.
+double closed_share(const lbm::Walls& walls, const lbm::Decomposition& decomposition) {
+  double closed = std::accumulate(walls.closed.begin(), walls.closed.end(), 0.);
+  MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_DOUBLE, MPI_SUM, decomposition.communicator());
+  return closed / static_cast<double>(lbm::CellBox{{0, 0, 0}, decomposition.cells()}.volume());
+}
+
+}  // namespace
+
+void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
+                        CoupledSimulation& simulation, const std::string& saved_state) {
+  const lbm::Fluid& fluid = simulation.fluid();
+  origin_ = simulation.origin();
+  spacing_ = simulation.units().spacing();
+  const std::vector<ScriptWall> walls = walls_of_script(lmp, settings.open, origin_, spacing_);
+  std::string now;
+  for (const ScriptWall& wall : walls)
+    now += fmt::format("{} {}{}; ", wall.name, wall.geometry, wall.open ? " open" : "");
+  if (now == known_) return;
+  std::vector<lbm::WallShape> shapes;
+  for (const ScriptWall& wall : walls)
+    shapes.push_back(wall.open ? lbm::WallShape(lbm::MeshWall{}) : wall.shape);
+  lbm::WallCuts cuts = lbm::cut_links(fluid.decomposition(), fluid.settings().faces, shapes);
+  std::string acting;
+  acting_.clear();
+  lines_.clear();
+  for (std::size_t n = 0; n < walls.size(); ++n) {
+    const ScriptWall& wall = walls[n];
+    const bool acts = cuts.count[n] > 0;
+    if (acts && wall.slides) refuse_sliding(wall);
+    lines_.push_back(fmt::format("{:<12}{} ({}): {}", n == 0 ? "walls" : "", wall.name, wall.geometry,
+                                 state_text(wall, acts, fluid)));
+    if (!acts) continue;
+    acting_.push_back(wall);
+    acting += fmt::format("{} {}; ", wall.name, wall.geometry);
+  }
+  const auto saved = saved_state.empty()
+                         ? std::nullopt
+                         : load_closed_cells(saved_state, fluid.decomposition(), acting);
+  const lbm::Walls water =
+      saved ? lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links), *saved)
+            : lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links),
+                          wet_cells(lmp, settings, port, simulation));
+  if (const double share = closed_share(water, fluid.decomposition()); share > 0)
+    lines_.push_back(fmt::format(
+        "{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)", "", 100 * share));
+  simulation.set_walls(water, acting);
+  known_ = now;
+}
+
+std::vector<std::pair<int, double>> WaterWalls::planes() const {
+  std::vector<std::pair<int, double>> planes;
+  for (const ScriptWall& wall : acting_)
+    if (const auto* plane = std::get_if<lbm::PlaneWall>(&wall.shape))
+      planes.emplace_back(plane->axis, origin_[plane->axis] + spacing_ * plane->position);
+  return planes;
+}
+
+}  // namespace suffuse::coupling
