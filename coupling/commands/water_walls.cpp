@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -66,11 +68,47 @@ std::string state_text(const ScriptWall& wall, bool acts, const lbm::Fluid& flui
   return "outside of the water, or on its faces";
 }
 
+/// What `lbm walls open` would name.
+std::string open_ids(const std::vector<ScriptWall>& walls) {
+  std::string ids;
+  for (const ScriptWall& wall : walls) ids += (ids.empty() ? "" : " ") + wall.id;
+  return ids;
+}
+
 /// Share of all cells that lie behind walls. Collective.
 double closed_share(const lbm::Walls& walls, const lbm::Decomposition& decomposition) {
   double closed = std::accumulate(walls.closed.begin(), walls.closed.end(), 0.);
   MPI_Allreduce(MPI_IN_PLACE, &closed, 1, MPI_DOUBLE, MPI_SUM, decomposition.communicator());
   return closed / static_cast<double>(lbm::CellBox{{0, 0, 0}, decomposition.cells()}.volume());
+}
+
+/// Faces through which water should pass, and that lie behind walls with all of their cells: the walls are to
+/// be sieves. Collective.
+void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const std::string& ids) {
+  const lbm::CellBox& box = fluid.decomposition().local_box();
+  std::array<int, lbm::kFaces> open{};  // has it a cell with water?
+  std::size_t n = 0;
+  lbm::for_each_cell(box, [&](int x, int y, int z) {
+    const lbm::Index3 cell{x, y, z};
+    const bool closed = !walls.closed.empty() && walls.closed[n] != 0;
+    ++n;
+    for (std::size_t f = 0; f < lbm::kFaces && !closed; ++f) {
+      const int last = lbm::is_high(static_cast<lbm::Face>(f)) ? fluid.decomposition().cells()[f / 2] - 1 : 0;
+      if (cell[f / 2] == last) open[f] = 1;
+    }
+  });
+  MPI_Allreduce(MPI_IN_PLACE, open.data(), lbm::kFaces, MPI_INT, MPI_MAX,
+                fluid.decomposition().communicator());
+  for (std::size_t f = 0; f < lbm::kFaces; ++f) {
+    const lbm::FaceKind kind = fluid.settings().faces[f].kind;
+    if (open[f] != 0 || (kind != lbm::FaceKind::pressure && kind != lbm::FaceKind::velocity)) continue;
+    throw_user_error(
+        {"lbm walls", "face " + lbm::name_of(static_cast<lbm::Face>(f)), lbm::name_of(kind) + " behind walls",
+         "let water pass",
+         fmt::format("`lbm walls open {}` makes walls let it pass, `lbm walls water all` fills both of their "
+                     "sides; or write `lbm boundary {} noslip`",
+                     ids, lbm::name_of(static_cast<lbm::Face>(f)))});
+  }
 }
 
 }  // namespace
@@ -112,6 +150,7 @@ void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
   if (const double share = closed_share(water, fluid.decomposition()); share > 0)
     lines_.push_back(fmt::format(
         "{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)", "", 100 * share));
+  refuse_faces_behind(water, fluid, open_ids(acting_));
   simulation.set_walls(water, acting);
   known_ = now;
 }

@@ -110,7 +110,7 @@ Point in_cells(const Point& point, const Vec3& origin, double spacing) {
 
 ScriptWall primitive_wall(FixWallGran& fix, const Vec3& origin, double spacing) {
   ScriptWall wall;
-  wall.name = fix.id;
+  wall.id = wall.name = fix.id;
   PrimitiveWall& primitive = *fix.primitiveWall();
   if (primitive.axis() < 0) {
     lbm::PlaneWall plane = plane_of(primitive);
@@ -133,6 +133,7 @@ ScriptWall primitive_wall(FixWallGran& fix, const Vec3& origin, double spacing) 
 ScriptWall mesh_wall(LAMMPS* lmp, FixWallGran& fix, FixMeshSurface& mesh, const Vec3& origin,
                      double spacing) {
   ScriptWall wall;
+  wall.id = mesh.id;
   wall.name = fmt::format("{} mesh {}", fix.id, mesh.id);
   lbm::MeshWall shape = mesh_of(mesh, lmp->world);
   Vec3 sum = Vec3::Zero(), low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);

@@ -14,6 +14,7 @@ namespace suffuse::coupling {
 
 /// A wall of the script: a primitive of `fix wall/gran`, or one of its meshes.
 struct ScriptWall {
+  std::string id;        ///< of the fix, or of the mesh: what opens it
   std::string name;      ///< ID of the fix; of a mesh, "ID mesh ID"
   std::string geometry;  ///< for a reader: "zplane 0.001"; tells two walls apart
   bool open = false;     ///< to water
