@@ -28,8 +28,8 @@ void load_pore_coefficients(const std::string& path, CoupledSimulation& simulati
 
 /// Which cells lie behind walls, with the walls that this is true for; nothing without walls. Collective.
 void save_walls(Hdf5File& file, const CoupledSimulation& simulation);
-/// The cells that a state was saved with, one value a cell of this rank as lbm::Walls::closed, if it was saved
-/// with these walls (CoupledSimulation::acting_walls). Collective.
+/// The cells that a state was saved with, one value a cell of this rank as lbm::Walls::closed, if it was
+/// saved with these walls (CoupledSimulation::acting_walls). Collective.
 std::optional<std::vector<std::uint8_t>> load_closed_cells(const std::string& path,
                                                            const lbm::Decomposition& decomposition,
                                                            const std::string& acting_walls);

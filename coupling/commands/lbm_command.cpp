@@ -81,7 +81,8 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, plan, "
+      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
+      "plan, "
       "run, "
       "restart, clear";
   const std::string word = narg > 0 ? arg[0] : "";
@@ -348,7 +349,8 @@ void LbmCommand::run(ArgumentReader& reader) {
     walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
   }
   warn_about_held_grains();
-  LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, walls_.lines(), continued_at_);
+  LbmRun(lmp_, settings_, *port_, *simulation_, output_)
+      .run(request, effects_, walls_.lines(), continued_at_);
 }
 
 }  // namespace suffuse::coupling

@@ -8,9 +8,9 @@
 #include "../liggghts/liggghts_port.h"
 #include "lbm_settings.h"
 #include "run_output.h"
-#include "water_walls.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
+#include "water_walls.h"
 
 namespace suffuse::coupling {
 

@@ -82,9 +82,10 @@ void LbmRun::check(long step) {
 /// They would move as if dry.
 void LbmRun::refuse_grains_behind_walls() const {
   if (const long grains = simulation_.grains_behind_walls(); grains > 0)
-    throw_user_error({"lbm run", "grains", count_text(grains, "grain") + " behind walls, where there is no water",
-                      "stay on the sides of the walls that hold water",
-                      "write `lbm walls water all`, or `lbm walls water at X Y Z` for each space with water"});
+    throw_user_error(
+        {"lbm run", "grains", count_text(grains, "grain") + " behind walls, where there is no water",
+         "stay on the sides of the walls that hold water",
+         "write `lbm walls water all`, or `lbm walls water at X Y Z` for each space with water"});
 }
 
 /// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains

@@ -232,32 +232,6 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
   settings.coupled.solids = solids;
 }
 
-void read_walls(ArgumentReader& reader, LbmSettings& settings) {
-  WallSettings walls = settings.walls;
-  enum class Subject { open, water };
-  if (choose<Subject>(reader, "keyword", {{"open", Subject::open}, {"water", Subject::water}}) ==
-      Subject::open) {
-    do {
-      const std::string id = reader.word("ID of a fix wall/gran or of its mesh");
-      refuse_repeated(reader, "open " + id,
-                      std::find(walls.open.begin(), walls.open.end(), id) != walls.open.end());
-      walls.open.push_back(id);
-    } while (!reader.done());
-    settings.walls = walls;
-    return;
-  }
-  walls.water = choose<WallSettings::Water>(reader, "water",
-                                            {{"grains", WallSettings::Water::with_grains},
-                                             {"all", WallSettings::Water::everywhere},
-                                             {"at", WallSettings::Water::at_points}});
-  walls.points.clear();
-  while (walls.water == WallSettings::Water::at_points && (walls.points.empty() || !reader.done())) {
-    const double x = reader.number("x"), y = reader.number("y"), z = reader.number("z");
-    walls.points.emplace_back(x, y, z);
-  }
-  settings.walls = walls;
-}
-
 void read_effect(ArgumentReader& reader, LbmSettings& settings) {
   EffectSettings effects = settings.coupled.effects;
   double smagorinsky = settings.smagorinsky;

@@ -296,9 +296,9 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
   if (word == "hydraulic_gradient")
     return {{word + "_" + axis_name(axis)}, [](Sample& sample, std::vector<double>& row) {
               const PlaneSums& planes = sample.planes();
-              row.push_back(
-                  gradient_between(sample, planes.spacing * static_cast<double>(planes.first_with_room()),
-                                   planes.spacing * static_cast<double>(planes.end_of_room())));
+              row.push_back(gradient_between(sample,
+                                             planes.spacing * static_cast<double>(planes.first_with_room()),
+                                             planes.spacing * static_cast<double>(planes.end_of_room())));
             }};
   if (word.starts_with("layer_")) {
     check_layers(monitor, now.simulation);

@@ -43,8 +43,9 @@ std::vector<lbm::Index3> wet_cells(LAMMPS_NS::LAMMPS* lmp, const WallSettings& s
     cells.push_back(cell_of(point, simulation.origin(), simulation.units().spacing(), simulation.fluid()));
     for (std::size_t a = 0; a < 3 && settings.water == Water::at_points; ++a)
       if (cells.back()[a] < 0 || cells.back()[a] >= simulation.fluid().decomposition().cells()[a])
-        throw_user_error({"lbm walls", "water at", fmt::format("{:g} {:g} {:g}", point[0], point[1], point[2]),
-                          "lie in the fluid", "give a point (m) on the side of the walls that holds water"});
+        throw_user_error({"lbm walls", "water at",
+                          fmt::format("{:g} {:g} {:g}", point[0], point[1], point[2]), "lie in the fluid",
+                          "give a point (m) on the side of the walls that holds water"});
   }
   return cells;
 }
@@ -113,6 +114,37 @@ void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const
 
 }  // namespace
 
+void read_walls(ArgumentReader& reader, LbmSettings& settings) {
+  using Water = WallSettings::Water;
+  WallSettings walls = settings.walls;
+  if (reader.accept("open")) {
+    do {
+      const std::string id = reader.word("ID of a fix wall/gran or of its mesh");
+      if (std::find(walls.open.begin(), walls.open.end(), id) != walls.open.end())
+        throw_user_error({reader.who(), "open " + id, "given twice", "be given once", "drop one of them"});
+      walls.open.push_back(id);
+    } while (!reader.done());
+  } else if (reader.accept("water")) {
+    walls.points.clear();
+    if (reader.accept("grains")) {
+      walls.water = Water::with_grains;
+    } else if (reader.accept("all")) {
+      walls.water = Water::everywhere;
+    } else if (reader.accept("at")) {
+      walls.water = Water::at_points;
+      do {
+        const double x = reader.number("x"), y = reader.number("y"), z = reader.number("z");
+        walls.points.emplace_back(x, y, z);
+      } while (!reader.done());
+    } else {
+      reader.unknown(reader.word("water (grains, all, at)"), "grains, all, at");
+    }
+  } else {
+    reader.unknown(reader.word("keyword (open, water)"), "open, water");
+  }
+  settings.walls = walls;
+}
+
 void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
                         CoupledSimulation& simulation, const std::string& saved_state) {
   const lbm::Fluid& fluid = simulation.fluid();
@@ -140,16 +172,16 @@ void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
     acting_.push_back(wall);
     acting += fmt::format("{} {}; ", wall.name, wall.geometry);
   }
-  const auto saved = saved_state.empty()
-                         ? std::nullopt
-                         : load_closed_cells(saved_state, fluid.decomposition(), acting);
+  const auto saved =
+      saved_state.empty() ? std::nullopt : load_closed_cells(saved_state, fluid.decomposition(), acting);
   const lbm::Walls water =
       saved ? lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links), *saved)
             : lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links),
                           wet_cells(lmp, settings, port, simulation));
   if (const double share = closed_share(water, fluid.decomposition()); share > 0)
-    lines_.push_back(fmt::format(
-        "{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)", "", 100 * share));
+    lines_.push_back(
+        fmt::format("{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)",
+                    "", 100 * share));
   refuse_faces_behind(water, fluid, open_ids(acting_));
   simulation.set_walls(water, acting);
   known_ = now;

@@ -32,8 +32,8 @@ Vec3 to_wall(PrimitiveWall& wall, Vec3 point) {
   return vector;
 }
 
-/// LIGGGHTS tells a plane by what it answers to points: at the origin, the position; where that is 0, the axis
-/// shows at another point.
+/// LIGGGHTS tells a plane by what it answers to points: at the origin, the position; where that is 0, the
+/// axis shows at another point.
 lbm::PlaneWall plane_of(PrimitiveWall& wall) {
   const Vec3 from_origin = to_wall(wall, Vec3::Zero()), from_ones = to_wall(wall, Vec3::Ones());
   lbm::PlaneWall plane;
@@ -96,9 +96,9 @@ std::string mover_of(LAMMPS* lmp, FixMeshSurface& fix) {
 
 [[noreturn]] void refuse(const std::string& id, const std::string& value, const std::string& rule,
                          const std::string& open_id) {
-  throw_user_error({"lbm walls", "fix " + id, value, rule,
-                    fmt::format("unfix it before `lbm run`, or write `lbm walls open {}` to let water pass",
-                                open_id)});
+  throw_user_error(
+      {"lbm walls", "fix " + id, value, rule,
+       fmt::format("unfix it before `lbm run`, or write `lbm walls open {}` to let water pass", open_id)});
 }
 
 constexpr const char* kAtRest = "stand still to be solid for water";
@@ -122,8 +122,9 @@ ScriptWall primitive_wall(FixWallGran& fix, const Vec3& origin, double spacing) 
   lbm::CylinderWall cylinder = cylinder_of(primitive);
   const Vec3& centre = cylinder.centre;
   const int b = cylinder.axis == 0 ? 1 : 0, c = cylinder.axis == 2 ? 1 : 2;
-  wall.geometry = fmt::format("{}cylinder, radius {:.10g} m about {} {:.10g}, {} {:.10g}",
-                              "xyz"[cylinder.axis], cylinder.radius, "xyz"[b], centre[b], "xyz"[c], centre[c]);
+  wall.geometry =
+      fmt::format("{}cylinder, radius {:.10g} m about {} {:.10g}, {} {:.10g}", "xyz"[cylinder.axis],
+                  cylinder.radius, "xyz"[b], centre[b], "xyz"[c], centre[c]);
   cylinder.centre = in_cells(centre, origin, spacing);
   cylinder.radius /= spacing;
   wall.shape = cylinder;
@@ -146,8 +147,8 @@ ScriptWall mesh_wall(LAMMPS* lmp, FixWallGran& fix, FixMeshSurface& mesh, const 
     }
   wall.geometry = count_text(static_cast<std::int64_t>(shape.triangles.size()), "triangle");
   if (!shape.triangles.empty())
-    wall.geometry += fmt::format(" from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m", low[0], low[1], low[2],
-                                 high[0], high[1], high[2]);
+    wall.geometry += fmt::format(" from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m", low[0], low[1],
+                                 low[2], high[0], high[1], high[2]);
   wall.shape = std::move(shape);
   return wall;
 }
@@ -202,9 +203,10 @@ void require_walls(LAMMPS* lmp, const std::vector<std::string>& ids) {
       for (int m = 0; m < granular->n_meshes(); ++m) std::erase(unknown, granular->mesh_list()[m]->id);
   }
   if (!unknown.empty())
-    throw_user_error({"lbm walls", "open", unknown.front(),
-                      "be the ID of a `fix wall/gran`, or of a mesh of one, that exists at the first `lbm run`",
-                      "drop it, or define the wall before"});
+    throw_user_error(
+        {"lbm walls", "open", unknown.front(),
+         "be the ID of a `fix wall/gran`, or of a mesh of one, that exists at the first `lbm run`",
+         "drop it, or define the wall before"});
 }
 
 bool inserts_grains(LAMMPS* lmp) {

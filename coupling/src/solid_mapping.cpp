@@ -276,7 +276,8 @@ void SolidMapping::cover_closed(const lbm::RowBlock& block) const {
   const float strength = settings_.cells.own_coefficients ? kLargestCellCoefficient : 1;
   for (int y = block.begin_y; y < block.end_y; ++y)
     for (int x = 0; x < box_.extent(0); ++x) {
-      if (closed_[static_cast<std::size_t>(x + box_.extent(0) * (y + box_.extent(1) * block.z))] == 0) continue;
+      if (closed_[static_cast<std::size_t>(x + box_.extent(0) * (y + box_.extent(1) * block.z))] == 0)
+        continue;
       const std::ptrdiff_t cell = x + arrays_.row_pitch * y + arrays_.plane_pitch * block.z;
       arrays_.strength[cell] = strength;
       arrays_.fraction[cell] = 1;  // perhaps the same array
@@ -348,8 +349,7 @@ double SolidMapping::overlap() const {
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
          loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
-         rows_.capacity() * sizeof(SliceRows) +
-         closed_.capacity() +
+         rows_.capacity() * sizeof(SliceRows) + closed_.capacity() +
          (slices_.capacity() + first_slice_.capacity() + order_.capacity()) * sizeof(int);
 }
 

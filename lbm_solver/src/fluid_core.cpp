@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace suffuse::lbm {
@@ -175,13 +176,17 @@ void FluidCore<T>::sweep_rows(KernelCall<T>& call, Kernel<T> kernel, RowVisitor*
 template <class T>
 void FluidCore<T>::clear_exchange_of_closed(const KernelCall<T>& call) const {
   if (closed_.empty() || !store_) return;
+  const auto length = static_cast<std::size_t>(call.cells_x);
   for (int z = call.begin_z; z < call.end_z; ++z)
-    for (int y = call.begin_y; y < call.end_y; ++y)
-      for (int x = 0; x < call.cells_x; ++x) {
-        if (!is_closed(x, y, z)) continue;
-        const std::ptrdiff_t cell = populations_.index(x, y, z);
-        for (T* exchange : call.exchange) exchange[cell] = 0;
+    for (int y = call.begin_y; y < call.end_y; ++y) {
+      const std::uint8_t* row =
+          closed_.data() + length * static_cast<std::size_t>(y + populations_.cells()[1] * z);
+      if (std::memchr(row, 1, length) == nullptr) continue;
+      for (T* exchange : call.exchange) {
+        T* values = exchange + populations_.index(0, y, z);
+        for (std::size_t x = 0; x < length; ++x) values[x] = row[x] != 0 ? T(0) : values[x];
       }
+    }
 }
 
 template <class T>

@@ -20,6 +20,9 @@ std::int64_t weight_36(int direction) {
   return std::lround(36 * kWeight[direction]);
 }
 
+/// Links lie apart in memory: what the next ones need is fetched meanwhile.
+constexpr std::size_t kAhead = 12;
+
 double share_of(double distance) {
   return distance < 0.5 ? 1 - 2 * distance : 1 - 1 / (2 * distance);
 }
@@ -30,7 +33,7 @@ template <class T>
 typename WallLinks<T>::Group& WallLinks<T>::group_of(int direction, bool second_streams_in) {
   for (Group& group : groups_)
     if (group.direction == direction && group.second_streams_in == second_streams_in) return group;
-  groups_.push_back({direction, second_streams_in, {}, {}, {}});
+  groups_.push_back({direction, second_streams_in, {}});
   return groups_.back();
 }
 
@@ -49,10 +52,8 @@ WallLinks<T>::WallLinks(const Decomposition& decomposition, const Populations<T>
     const std::ptrdiff_t cell = index(link);
     const bool free_behind = !cut.contains({cell, opposite(link.direction)});
     Group& group = group_of(link.direction, link.distance < 0.5 && free_behind);
-    group.cells.push_back(cell);
-    group.share.push_back(share_of(link.distance));
-    group.space.push_back(link.space);
-    if (group.share.back() != 0) interpolates = 1;
+    group.links.push_back({cell, share_of(link.distance), link.space});
+    if (group.links.back().share != 0) interpolates = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, &interpolates, 1, MPI_INT, MPI_MAX, communicator_);
   interpolates_ = interpolates != 0;
@@ -83,17 +84,22 @@ std::size_t WallLinks<T>::read(const Populations<T>& populations, const Group& g
   const T* leaving_back = kAfterOddStep ? populations.slot(j) - ahead : populations.slot(i);
   const T* streaming_in = kAfterOddStep ? populations.slot(i) : populations.slot(j) - ahead;
   const T* second = group.second_streams_in ? streaming_in : leaving_back;
-  for (std::size_t k = 0; k < group.cells.size(); ++k, ++n) {
-    const std::ptrdiff_t cell = group.cells[k];
-    const double out = static_cast<double>(leaving[cell]);
+  for (std::size_t k = 0; k < group.links.size(); ++k, ++n) {
+    if (k + kAhead < group.links.size()) {
+      const std::ptrdiff_t next = group.links[k + kAhead].cell;
+      __builtin_prefetch(leaving + next);
+      __builtin_prefetch(second + next);
+    }
+    const Link& link = group.links[k];
+    const double out = static_cast<double>(leaving[link.cell]);
     returned_[n] = out;
-    if (group.share[k] == 0) continue;
-    const double units = std::rint(group.share[k] * (static_cast<double>(second[cell]) - out) / kUnit);
+    if (link.share == 0) continue;
+    const double units = std::rint(link.share * (static_cast<double>(second[link.cell]) - out) / kUnit);
     returned_[n] = out + units * kUnit;
     // A flow that has blown up is told elsewhere; it must not leave the range of whole numbers here.
     constexpr double most = 0x1p60;
-    if (group.space[k] >= 0 && std::abs(units) < most)
-      added_[static_cast<std::size_t>(group.space[k])] += static_cast<std::int64_t>(units);
+    if (link.space >= 0 && std::abs(units) < most)
+      added_[static_cast<std::size_t>(link.space)] += static_cast<std::int64_t>(units);
   }
   return n;
 }
@@ -124,10 +130,11 @@ void WallLinks<T>::apply(Populations<T>& populations) {
     const int i = group.direction, j = opposite(i);
     T* entering = kAfterOddStep ? populations.slot(j) : populations.slot(i) + populations.offset_of(i);
     const double weight = kWeight[i];
-    for (std::size_t k = 0; k < group.cells.size(); ++k, ++n) {
-      const int space = group.space[k];
-      const double back = space >= 0 ? weight * correction[static_cast<std::size_t>(space)] : 0;
-      entering[group.cells[k]] = static_cast<T>(returned_[n] - back);
+    for (std::size_t k = 0; k < group.links.size(); ++k, ++n) {
+      if (k + kAhead < group.links.size()) __builtin_prefetch(entering + group.links[k + kAhead].cell, 1);
+      const Link& link = group.links[k];
+      const double back = link.space >= 0 ? weight * correction[static_cast<std::size_t>(link.space)] : 0;
+      entering[link.cell] = static_cast<T>(returned_[n] - back);
     }
   }
 }

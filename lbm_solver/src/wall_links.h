@@ -30,13 +30,16 @@ class WallLinks {
   std::size_t bytes() const;
 
  private:
+  struct Link {
+    std::ptrdiff_t cell = 0;
+    double share = 0;
+    int space = -1;
+  };
   /// Links of one direction whose second value is found in the same way.
   struct Group {
     int direction = 0;
     bool second_streams_in = false;
-    std::vector<std::ptrdiff_t> cells;
-    std::vector<double> share;
-    std::vector<int> space;
+    std::vector<Link> links;
   };
   template <bool kAfterOddStep>
   void apply(Populations<T>& populations);

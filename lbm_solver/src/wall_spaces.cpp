@@ -60,7 +60,6 @@ class SpaceLabels {
   /// Of a cell of this rank, numbered from its low corner.
   Label of(const Index3& cell) { return lowest_[root(number(cell))]; }
   Label of(std::size_t n) { return lowest_[root(n)]; }
-  bool is_cut(std::size_t n, int direction) const { return (cut_[n] >> direction & 1U) != 0; }
 
   std::size_t number(const Index3& cell) const {
     return at(cell[0]) + at(box_.extent(0)) * (at(cell[1]) + at(box_.extent(1)) * at(cell[2]));
@@ -105,7 +104,7 @@ class SpaceLabels {
   /// Where a link leads, counted from the low corner of this rank's cells; nowhere if it comes back, is cut,
   /// or goes on beyond a pressure face.
   bool leads_to(const Index3& cell, int direction, Index3& there) const {
-    if (is_cut(number(cell), direction)) return false;
+    if ((cut_[number(cell)] >> direction & 1U) != 0) return false;
     const Index3 sides = crossed(cell, direction);
     const LinkRule::Action action = link_rule(faces_, sides).action;
     if (action != LinkRule::Action::stream && action != LinkRule::Action::mirror) return false;
@@ -209,21 +208,18 @@ bool anywhere(bool mine, MPI_Comm communicator) {
   return any != 0;
 }
 
-/// Nothing enters closed cells from outside the box. A no-slip face sees to that itself.
+/// Nothing enters closed cells through the faces of the box: what a velocity face lets in would not get out.
 void close_faces(const Decomposition& decomposition, const FaceConditions& faces, const SpaceLabels& labels,
-                 Walls& walls) {
+                 const std::vector<std::uint8_t>& closed, std::vector<WallLink>& links) {
   for_each_cell(decomposition.local_box(), [&](int x, int y, int z) {
     const Index3 cell = labels.local({x, y, z});
-    const std::size_t n = labels.number(cell);
-    if (walls.closed[n] == 0) return;
+    if (closed[labels.number(cell)] == 0) return;
     for (int i = 1; i < kDirections; ++i) {
-      if (labels.is_cut(n, i)) continue;
-      const LinkRule rule = link_rule(faces, labels.crossed(cell, i));
-      if (rule.action == LinkRule::Action::stream ||
-          (rule.action == LinkRule::Action::bounce &&
-           faces[static_cast<std::size_t>(rule.face)].kind == FaceKind::no_slip))
-        continue;
-      walls.links.push_back({{x, y, z}, i, 0.5, -1});
+      const Index3 crossed = labels.crossed(cell, i);
+      if (crossed == Index3{0, 0, 0}) continue;
+      const LinkRule rule = link_rule(faces, crossed);
+      if (rule.action != LinkRule::Action::stream && rule.action != LinkRule::Action::mirror)
+        links.push_back({{x, y, z}, i, 0.5, -1});
     }
   });
 }
@@ -245,15 +241,14 @@ Walls finish(const Decomposition& decomposition, const FaceConditions& faces, st
     if (is_open(link)) wet.push_back(labels.of(labels.local(link.cell)));
   const std::vector<Label> spaces = union_of(std::move(wet), communicator);
   walls.spaces = static_cast<int>(spaces.size());
+  std::vector<WallLink> at_faces;
+  if (!walls.closed.empty()) close_faces(decomposition, faces, labels, walls.closed, at_faces);
+  std::erase_if(walls.links, [&](const WallLink& link) { return !is_open(link); });
   for (WallLink& link : walls.links) {
-    if (!is_open(link)) {
-      link.distance = 0.5;
-      continue;
-    }
     const Label label = labels.of(labels.local(link.cell));
     link.space = static_cast<int>(std::lower_bound(spaces.begin(), spaces.end(), label) - spaces.begin());
   }
-  if (!walls.closed.empty()) close_faces(decomposition, faces, labels, walls);
+  walls.links.insert(walls.links.end(), at_faces.begin(), at_faces.end());
   return walls;
 }
 

@@ -96,9 +96,9 @@ class CoupledSimulation {
   void set_walls(const lbm::Walls& walls, const std::string& acting);
   const std::string& acting_walls() const { return acting_walls_; }
 
-  /// Grains, as they were last read, whose centre lies in a cell behind walls: they have no water. Those below
-  /// 1.74 cells per diameter are not looked at: the cell of their centre may lie on the other side of a wall
-  /// that they touch. Collective.
+  /// Grains, as they were last read, whose centre lies in a cell behind walls: they have no water. Those
+  /// below 1.74 cells per diameter are not looked at: the cell of their centre may lie on the other side of a
+  /// wall that they touch. Collective.
   long grains_behind_walls() const;
 
   /// New values from the next step on, SI.

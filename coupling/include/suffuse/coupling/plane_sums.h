@@ -6,9 +6,9 @@
 
 namespace suffuse::coupling {
 
-/// Means over planes of cells across one axis, SI. Element i belongs to the plane of cells i. What lies behind
-/// walls is neither pore nor grain: superficial velocities and porosities are those of the room between walls,
-/// the other means those of the whole plane.
+/// Means over planes of cells across one axis, SI. Element i belongs to the plane of cells i. What lies
+/// behind walls is neither pore nor grain: superficial velocities and porosities are those of the room
+/// between walls, the other means those of the whole plane.
 struct PlaneSums {
   int axis = 2;
   double spacing = 0;              ///< m; plane i is centred at (i + 1/2) spacing above the low corner
@@ -30,8 +30,8 @@ struct PlaneSums {
   /// Share of a plane that grains cover.
   double solid_share(std::size_t plane) const { return room[plane] - open_share[plane]; }
 
-  /// Volume of the room below a height above the low corner, per area of the whole plane, m: the height itself
-  /// without walls.
+  /// Volume of the room below a height above the low corner, per area of the whole plane, m: the height
+  /// itself without walls.
   double room_below(double height) const;
 
   /// Fluid's volume flux (Darcy velocity) averaged over the planes [begin, end), m/s: the flux less the

@@ -27,8 +27,8 @@ struct Walls {
   std::vector<WallLink> links;
   /// Spaces between the walls of all ranks, by number; the same on every rank.
   int spaces = 0;
-  /// One value a cell of this rank, x fastest: 1 where there is no water. Empty: nowhere. All links that lead
-  /// from such a cell to one with water or out of the box must be cut at both ends.
+  /// One value a cell of this rank, x fastest: 1 where there is no water. Empty: nowhere. Links that lead
+  /// from a cell with water to such a cell must be cut; what enters such cells through them does not matter.
   std::vector<std::uint8_t> closed;
 
   bool empty() const { return links.empty() && closed.empty(); }
