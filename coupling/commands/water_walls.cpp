@@ -69,11 +69,12 @@ std::string state_text(const ScriptWall& wall, bool acts, const lbm::Fluid& flui
   return "outside of the water, or on its faces";
 }
 
-/// What `lbm walls open` would name.
-std::string open_ids(const std::vector<ScriptWall>& walls) {
+/// What to write for water to pass one of these walls.
+std::string how_to_open(const std::vector<ScriptWall>& walls) {
+  if (walls.size() == 1) return fmt::format("`lbm walls open {}`", walls.front().id);
   std::string ids;
-  for (const ScriptWall& wall : walls) ids += (ids.empty() ? "" : " ") + wall.id;
-  return ids;
+  for (const ScriptWall& wall : walls) ids += (ids.empty() ? "" : ", ") + wall.id;
+  return fmt::format("`lbm walls open ID` (of {})", ids);
 }
 
 /// Share of all cells that lie behind walls. Collective.
@@ -85,7 +86,7 @@ double closed_share(const lbm::Walls& walls, const lbm::Decomposition& decomposi
 
 /// Faces through which water should pass, and that lie behind walls with all of their cells: the walls are to
 /// be sieves. Collective.
-void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const std::string& ids) {
+void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const std::string& opening) {
   const lbm::CellBox& box = fluid.decomposition().local_box();
   std::array<int, lbm::kFaces> open{};  // has it a cell with water?
   std::size_t n = 0;
@@ -106,9 +107,9 @@ void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const
     throw_user_error(
         {"lbm walls", "face " + lbm::name_of(static_cast<lbm::Face>(f)), lbm::name_of(kind) + " behind walls",
          "let water pass",
-         fmt::format("`lbm walls open {}` makes walls let it pass, `lbm walls water all` fills both of their "
-                     "sides; or write `lbm boundary {} noslip`",
-                     ids, lbm::name_of(static_cast<lbm::Face>(f)))});
+         fmt::format("{} makes a wall let it pass, `lbm walls water all` fills both sides of walls; or write "
+                     "`lbm boundary {} noslip`",
+                     opening, lbm::name_of(static_cast<lbm::Face>(f)))});
   }
 }
 
@@ -182,7 +183,7 @@ void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
     lines_.push_back(
         fmt::format("{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)",
                     "", 100 * share));
-  refuse_faces_behind(water, fluid, open_ids(acting_));
+  refuse_faces_behind(water, fluid, how_to_open(acting_));
   simulation.set_walls(water, acting);
   known_ = now;
 }
