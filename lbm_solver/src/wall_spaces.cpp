@@ -106,8 +106,10 @@ class SpaceLabels {
   bool leads_to(const Index3& cell, int direction, Index3& there) const {
     if ((cut_[number(cell)] >> direction & 1U) != 0) return false;
     const Index3 sides = crossed(cell, direction);
-    const LinkRule::Action action = link_rule(faces_, sides).action;
-    if (action != LinkRule::Action::stream && action != LinkRule::Action::mirror) return false;
+    if (sides != Index3{0, 0, 0}) {
+      const LinkRule::Action action = link_rule(faces_, sides).action;
+      if (action != LinkRule::Action::stream && action != LinkRule::Action::mirror) return false;
+    }
     for (std::size_t a = 0; a < 3; ++a) {
       const bool periodic = faces_[2 * a].kind == FaceKind::periodic;
       there[a] = sides[a] != 0 && !periodic ? cell[a] : cell[a] + kVelocity[direction][a];
