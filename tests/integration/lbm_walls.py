@@ -5,10 +5,16 @@ Walls of the script are solid for the water: discharge of a cylinder and of a tu
 planes and in a tube, a closed box that keeps its water, walls that go between runs, restarts; what cannot be solid is refused.
 """
 import math
+import os
 import pathlib
 import sys
 
-import h5py
+try:
+    import h5py
+except ImportError:  # Debian's Python has it
+    if sys.executable == "/usr/bin/python3":
+        raise
+    os.execv("/usr/bin/python3", ["/usr/bin/python3", *sys.argv])
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 from scenes import HEADER, MATERIAL, Program, columns, expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
@@ -299,7 +305,7 @@ def check_refusals(program):
     with scratch() as folder:
         write_stl(pathlib.Path(folder) / "plate.stl", [((0, 0, 5e-4), (8e-4, 0, 5e-4), (8e-4, 8e-4, 5e-4)),
                                                        ((0, 0, 5e-4), (8e-4, 8e-4, 5e-4), (0, 8e-4, 5e-4))])
-        amiss = mistakes_not_named(program, CASES, folder)
+        amiss = mistakes_not_named(program, CASES if program.ranks == 1 else CASES[:2] + CASES[-4:-2], folder)
         # Asked to be open, or beside the water, what cannot be solid does no harm.
         program.must_run(CASES[0][0].replace("lbm run", "lbm walls open plate_mesh\nlbm run"), folder)
         program.must_run(CASES[3][0].replace("lbm run", "lbm walls open cage\nlbm run"), folder)
@@ -309,8 +315,10 @@ def check_refusals(program):
 
 def main():
     program = program_from_command_line(__doc__)
-    for check in (check_channel, check_tubes, check_grain_between_planes, check_sphere_in_tube, check_closed_box, check_restart, check_gate,
-                  check_walls_on_faces, check_refusals):
+    checks = [check_tubes, check_closed_box, check_restart, check_refusals]
+    if program.ranks == 1:  # the fluid is the same on any number (unit_lbm_walls)
+        checks += [check_channel, check_grain_between_planes, check_sphere_in_tube, check_gate, check_walls_on_faces]
+    for check in checks:
         check(program)
     print("walls of the script are solid for the water")
 
