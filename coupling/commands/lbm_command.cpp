@@ -346,7 +346,11 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_unchanged();
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
-    walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
+    const bool new_walls = walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
+    if (new_walls && lmp_->modify->find_fix(kLubricationFix) >= 0) {  // films at planes
+      lmp_->modify->delete_fix(kLubricationFix);
+      add_lubrication(*simulation_);
+    }
   }
   warn_about_held_grains();
   LbmRun(lmp_, settings_, *port_, *simulation_, output_)

@@ -146,7 +146,7 @@ void read_walls(ArgumentReader& reader, LbmSettings& settings) {
   settings.walls = walls;
 }
 
-void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
+bool WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
                         CoupledSimulation& simulation, const std::string& saved_state) {
   const lbm::Fluid& fluid = simulation.fluid();
   origin_ = simulation.origin();
@@ -155,7 +155,7 @@ void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
   std::string now;
   for (const ScriptWall& wall : walls)
     now += fmt::format("{} {}{}; ", wall.name, wall.geometry, wall.open ? " open" : "");
-  if (now == known_) return;
+  if (now == known_) return false;
   std::vector<lbm::WallShape> shapes;
   for (const ScriptWall& wall : walls)
     shapes.push_back(wall.open ? lbm::WallShape(lbm::MeshWall{}) : wall.shape);
@@ -186,6 +186,7 @@ void WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
   refuse_faces_behind(water, fluid, how_to_open(acting_));
   simulation.set_walls(water, acting);
   known_ = now;
+  return true;
 }
 
 std::vector<std::pair<int, double>> WaterWalls::planes() const {

@@ -16,9 +16,9 @@ namespace suffuse::coupling {
 class WaterWalls {
  public:
   /// Gives the simulation the walls that LIGGGHTS has now, if they are not those that it has already. With a
-  /// saved state (its file, or empty) that had the same ones, the same cells lie behind them. A UserError for
-  /// walls that cannot be solid for water. Collective.
-  void follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
+  /// saved state (its file, or empty) that had the same ones, the same cells lie behind them. True if they
+  /// changed. A UserError for walls that cannot be solid for water. Collective.
+  bool follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
               CoupledSimulation& simulation, const std::string& saved_state);
 
   /// For the manifest: which walls act on the water, which do not and why; nothing without walls.
