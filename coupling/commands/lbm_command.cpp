@@ -352,9 +352,9 @@ void LbmCommand::run(ArgumentReader& reader) {
       add_lubrication(*simulation_);
     }
   }
+  request.walls = walls_.lines();
   warn_about_held_grains();
-  LbmRun(lmp_, settings_, *port_, *simulation_, output_)
-      .run(request, effects_, walls_.lines(), continued_at_);
+  LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
 }
 
 }  // namespace suffuse::coupling

@@ -11,12 +11,12 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
-#include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"
 #include "suffuse/coupling/plane_sums.h"
 #include "suffuse/lbm/health.h"
+#include "water_walls.h"
 
 namespace suffuse::coupling {
 
@@ -73,19 +73,10 @@ std::string LbmRun::details() const {
 void LbmRun::check(long step) {
   if (step % kCheckEvery != 0 && step != last_ && step != first_) return;
   extremes_ = simulation_.fluid().extremes();
-  refuse_grains_behind_walls();
+  refuse_grains_behind_walls(simulation_);
   if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
   lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
                       "lbm run");
-}
-
-/// They would move as if dry.
-void LbmRun::refuse_grains_behind_walls() const {
-  if (const long grains = simulation_.grains_behind_walls(); grains > 0)
-    throw_user_error(
-        {"lbm run", "grains", count_text(grains, "grain") + " behind walls, where there is no water",
-         "stay on the sides of the walls that hold water",
-         "write `lbm walls water all`, or `lbm walls water at X Y Z` for each space with water"});
 }
 
 /// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
@@ -104,7 +95,7 @@ bool LbmRun::is_steady(double share) {
 
 /// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
 void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
-                   const std::vector<std::string>& walls, std::optional<double> continue_after) {
+                   std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
   const long steps = steps_in(request.time, units);
   if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
@@ -120,7 +111,8 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
-  for (const std::string& line : manifest(simulation_, grains, effects, walls)) say("lbm run: " + line);
+  for (const std::string& line : manifest(simulation_, grains, effects, request.walls))
+    say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
   simulation_.map();
   refuse_overlaps(grains);
@@ -219,12 +211,12 @@ std::optional<std::string> LbmRun::weight_note() const {
 }
 
 void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-                 const std::vector<std::string>& walls, std::optional<double> continue_after) {
+                 std::optional<double> continue_after) {
   // A second SIGINT acts as usual: whoever waits at a terminal can end the program at once. SIGUSR1 is what
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
-  begin(request, effects, walls, continue_after);
+  begin(request, effects, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
   bool is_last = false, steady = false;

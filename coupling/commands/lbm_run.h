@@ -18,7 +18,8 @@ struct RunRequest {
   /// End early once the fluid's superficial velocity and the grains' mean motion have changed by less than
   /// this share of themselves over `window`.
   std::optional<double> steady;
-  double window = 0;  ///< s; 0: a twentieth of the time
+  double window = 0;               ///< s; 0: a twentieth of the time
+  std::vector<std::string> walls;  ///< lines of the manifest about them
 };
 
 /// One `lbm run`: manifest, steps with what is due at each, table of times.
@@ -29,14 +30,12 @@ class LbmRun {
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
-  /// `walls`: lines of the manifest about them.
   void run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-           const std::vector<std::string>& walls, std::optional<double> continue_after);
+           std::optional<double> continue_after);
 
  private:
   void begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
-             const std::vector<std::string>& walls, std::optional<double> continue_after);
-  void refuse_grains_behind_walls() const;
+             std::optional<double> continue_after);
   void advance(long step, bool is_last);
   bool look(long step, const RunRequest& request);
   std::string interruption_text(int signal);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "checkpoint_contents.h"
+#include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/wall_shapes.h"
 #include "suffuse/lbm/wall_spaces.h"
@@ -187,6 +188,14 @@ bool WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
   simulation.set_walls(water, acting);
   known_ = now;
   return true;
+}
+
+void refuse_grains_behind_walls(const CoupledSimulation& simulation) {
+  if (const long grains = simulation.grains_behind_walls(); grains > 0)
+    throw_user_error(
+        {"lbm run", "grains", count_text(grains, "grain") + " behind walls, where there is no water",
+         "stay on the sides of the walls that hold water",
+         "write `lbm walls water all`, or `lbm walls water at X Y Z` for each space with water"});
 }
 
 std::vector<std::pair<int, double>> WaterWalls::planes() const {

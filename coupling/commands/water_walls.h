@@ -35,4 +35,7 @@ class WaterWalls {
   double spacing_ = 0;
 };
 
+/// A UserError if grains lie where there is no water: they would move as if dry. Collective.
+void refuse_grains_behind_walls(const CoupledSimulation& simulation);
+
 }  // namespace suffuse::coupling
