@@ -352,8 +352,8 @@ void LbmCommand::run(ArgumentReader& reader) {
       add_lubrication(*simulation_);
     }
   }
-  request.walls = walls_.lines();
   warn_about_held_grains();
+  request.walls = walls_.lines();
   LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
 }
 
