@@ -19,9 +19,9 @@ std::size_t at(int n) {
   return static_cast<std::size_t>(n);
 }
 
-/// Farther than this from a surface no link of a cell, nor its mirror image, reaches it: twice sqrt(2) and
-/// the rounding.
-constexpr double kReach = 2.9;
+/// Farther than this from a surface no link of a cell reaches it: sqrt(2) and the rounding. The mirror image
+/// of a link begins a cell farther out at most.
+constexpr double kReach = 1.45, kMirroredReach = 2.9;
 
 /// Edges of triangles are as much wider, so that no link slips through between two of them (cells).
 constexpr double kEdge = 1e-6;
@@ -158,6 +158,8 @@ class LinkCutter {
   LinkCutter(const Decomposition& decomposition, const FaceConditions& faces)
       : box_(decomposition.local_box()), cells_(decomposition.cells()), faces_(faces) {
     for (std::size_t a = 0; a < 3; ++a) periodic_[a] = faces[2 * a].kind == FaceKind::periodic;
+    for (const FaceCondition& face : faces)
+      if (face.kind == FaceKind::free_slip) reach_ = kMirroredReach;
   }
 
   std::int64_t cut(const WallShape& shape) {
@@ -208,8 +210,8 @@ class LinkCutter {
     Vec3 moved;
     for (int a = 0; a < 3; ++a) {
       moved[a] = shift[at(a)] * cells_[at(a)];
-      const double low = std::floor(bounds.low[a] - kReach - moved[a]),
-                   high = std::ceil(bounds.high[a] + kReach - moved[a]);
+      const double low = std::floor(bounds.low[a] - reach_ - moved[a]),
+                   high = std::ceil(bounds.high[a] + reach_ - moved[a]);
       range.lo[at(a)] = static_cast<int>(std::clamp<double>(low, range.lo[at(a)], range.hi[at(a)]));
       range.hi[at(a)] = static_cast<int>(std::clamp<double>(high, range.lo[at(a)], range.hi[at(a)]));
       if (shift[at(a)] < 0) range.lo[at(a)] = std::max(range.lo[at(a)], cells_[at(a)] - 1);
@@ -218,7 +220,7 @@ class LinkCutter {
     if (range.empty()) return;
     for_each_cell(range, [&](int x, int y, int z) {
       const Vec3 start = moved + Vec3(x + 0.5, y + 0.5, z + 0.5);
-      if (surface.distance(start) > kReach) return;
+      if (surface.distance(start) > reach_) return;
       for (int i = 1; i < kDirections; ++i) cut_link(surface, {x, y, z}, i, shift, start);
     });
   }
@@ -233,8 +235,12 @@ class LinkCutter {
       if (shift[a] != 0 && crossed[a] != -shift[a]) return;
     }
     const Vec3 along(kVelocity[direction][0], kVelocity[direction][1], kVelocity[direction][2]);
-    const LinkRule::Action action = link_rule(faces_, crossed).action;
     const auto first = crossing(surface, start, along);
+    if (crossed == Index3{0, 0, 0}) {
+      if (first) add(cell, direction, *first);
+      return;
+    }
+    const LinkRule::Action action = link_rule(faces_, crossed).action;
     if (action == LinkRule::Action::stream || action == LinkRule::Action::extend) {
       if (first) add(cell, direction, *first);
     } else if (action == LinkRule::Action::mirror) {
@@ -263,6 +269,7 @@ class LinkCutter {
   Index3 cells_;
   FaceConditions faces_;
   std::array<bool, 3> periodic_{};
+  double reach_ = kReach;
   std::vector<Hit> hits_;
 };
 
