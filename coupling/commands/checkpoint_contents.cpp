@@ -13,6 +13,9 @@ namespace {
 constexpr const char* kSettings = "/settings";
 constexpr const char* kReferences = "/monitor_references";
 constexpr const char* kPoreCoefficients = "/pore_coefficients";
+constexpr const char* kWalls = "/walls";
+constexpr const char* kActingWalls = "/walls/acting";  ///< a text, character by character
+constexpr const char* kClosedCells = "/walls/closed_cells";
 
 /// One setting as text: ten digits tell two scripts apart, not two ways to round.
 struct Setting {
@@ -113,6 +116,37 @@ void load_pore_coefficients(const std::string& path, CoupledSimulation& simulati
   const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
   if (!simulation.settings().solids.automatic_coefficient || !file.exists(kPoreCoefficients)) return;
   simulation.set_pore_coefficients(file.read<float>(kPoreCoefficients, lbm::cells_of(d)));
+}
+
+void save_walls(Hdf5File& file, const CoupledSimulation& simulation) {
+  const std::string& acting = simulation.acting_walls();
+  if (acting.empty()) return;
+  const lbm::Decomposition& d = simulation.fluid().decomposition();
+  file.create_group(kWalls);
+  file.create_array<std::uint8_t>(kActingWalls, {acting.size()});
+  const std::vector<std::uint8_t> text(acting.begin(), d.rank() == 0 ? acting.end() : acting.begin());
+  file.write(kActingWalls, {{acting.size()}, {0}, {text.size()}}, text);
+  std::vector<std::uint8_t> closed;
+  closed.reserve(d.local_box().volume());
+  lbm::for_each_cell(d.local_box(), [&](int x, int y, int z) {
+    closed.push_back(simulation.fluid().is_closed({x, y, z}) ? 1 : 0);
+  });
+  const ArrayPart cells = lbm::cells_of(d);
+  file.create_array<std::uint8_t>(kClosedCells, cells.whole);
+  file.write(kClosedCells, cells, closed);
+}
+
+std::optional<std::vector<std::uint8_t>> load_closed_cells(const std::string& path,
+                                                           const lbm::Decomposition& decomposition,
+                                                           const std::string& acting_walls) {
+  const Hdf5File file(path, Hdf5File::Mode::read, decomposition.communicator());
+  if (!file.exists(kWalls) || acting_walls.empty()) return std::nullopt;
+  const std::size_t size = file.extents(kActingWalls).at(0);
+  const auto saved = file.read<std::uint8_t>(kActingWalls, {{size}, {0}, {size}});
+  if (std::string(saved.begin(), saved.end()) != acting_walls) return std::nullopt;
+  const ArrayPart cells = lbm::cells_of(decomposition);
+  if (file.extents(kClosedCells) != cells.whole) return std::nullopt;
+  return file.read<std::uint8_t>(kClosedCells, cells);
 }
 
 void save_references(Hdf5File& file, const MonitorReferences& references, MPI_Comm communicator) {

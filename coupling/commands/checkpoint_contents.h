@@ -2,7 +2,9 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,14 @@ void save_references(Hdf5File& file, const MonitorReferences& references, MPI_Co
 /// it is, and one whose file has none to survey anew. Collective.
 void save_pore_coefficients(Hdf5File& file, const CoupledSimulation& simulation);
 void load_pore_coefficients(const std::string& path, CoupledSimulation& simulation);
+
+/// Which cells lie behind walls, with the walls that this is true for; nothing without walls. Collective.
+void save_walls(Hdf5File& file, const CoupledSimulation& simulation);
+/// The cells that a state was saved with, one value a cell of this rank as lbm::Walls::closed, if it was
+/// saved with these walls (CoupledSimulation::acting_walls). Collective.
+std::optional<std::vector<std::uint8_t>> load_closed_cells(const std::string& path,
+                                                           const lbm::Decomposition& decomposition,
+                                                           const std::string& acting_walls);
 
 /// A UserError for the first setting that the file was saved with and this simulation has otherwise; those
 /// of `lbm fluid`, `lattice`, `collision`, `solid` and `effect` (as `auto` decided) are compared. False if

@@ -81,14 +81,16 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, effect, couple, monitor, output, plan, "
+      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
+      "plan, "
       "run, "
       "restart, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
       {"preset", read_preset},       {"fluid", read_fluid}, {"lattice", read_lattice},
-      {"collision", read_collision}, {"solid", read_solid}, {"effect", read_effect}};
+      {"collision", read_collision}, {"solid", read_solid}, {"walls", read_walls},
+      {"effect", read_effect}};
   if (const auto reading = before_start.find(word); reading != before_start.end()) {
     refuse_after_start(word);
     reading->second(reader, settings_);
@@ -118,6 +120,7 @@ void LbmCommand::line(int narg, char** arg) {
     state_to_read_.clear();
     continued_at_.reset();
     warned_about_held_grains_ = false;
+    walls_ = {};
   } else {
     throw_user_error({"lbm", "word", word.empty() ? "nothing" : word, std::string("be one of: ") + known,
                       "see docs/reference/lbm.md"});
@@ -215,6 +218,8 @@ void LbmCommand::build() {
   const lbm::Decomposition parts = decomposition(low);
   coupled.substeps = choose_substeps();
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
+  require_walls(lmp_, settings_.walls.open);
+  walls_.follow(lmp_, settings_.walls, *port_, *simulation_, state_to_read_);
   if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
   if (!state_to_read_.empty()) read_state();
 }
@@ -273,6 +278,7 @@ void LbmCommand::add_lubrication(const CoupledSimulation& simulation) {
   for (int f = 0; f < lbm::kFaces; ++f)
     if (simulation.fluid().settings().faces[static_cast<std::size_t>(f)].kind == lbm::FaceKind::no_slip)
       walls.push_back({f / 2, simulation.origin()[f / 2] + (f % 2 == 1 ? size[f / 2] : 0)});
+  for (const auto& [axis, position] : walls_.planes()) walls.push_back({axis, position});
   std::vector<std::string> words =
       LAMMPS_NS::FixLubrication::words(kLubricationFix, "all", film, every, walls);
   std::vector<char*> arguments;
@@ -340,8 +346,14 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_unchanged();
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
+    const bool new_walls = walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
+    if (new_walls && lmp_->modify->find_fix(kLubricationFix) >= 0) {  // films at planes
+      lmp_->modify->delete_fix(kLubricationFix);
+      add_lubrication(*simulation_);
+    }
   }
   warn_about_held_grains();
+  request.walls = walls_.lines();
   LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
 }
 

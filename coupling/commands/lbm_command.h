@@ -10,6 +10,7 @@
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
+#include "water_walls.h"
 
 namespace suffuse::coupling {
 
@@ -47,6 +48,7 @@ class LbmCommand {
   std::unique_ptr<LiggghtsPort> port_;
   std::unique_ptr<CoupledSimulation> simulation_;
   std::vector<EffectChoice> effects_;
+  WaterWalls walls_;
   RunOutput output_;
   std::string state_to_read_;
   std::optional<double> continued_at_;  ///< s: time of the state that was read

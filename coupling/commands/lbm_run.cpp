@@ -16,6 +16,7 @@
 #include "suffuse/common/signal_watch.h"
 #include "suffuse/coupling/plane_sums.h"
 #include "suffuse/lbm/health.h"
+#include "water_walls.h"
 
 namespace suffuse::coupling {
 
@@ -72,6 +73,7 @@ std::string LbmRun::details() const {
 void LbmRun::check(long step) {
   if (step % kCheckEvery != 0 && step != last_ && step != first_) return;
   extremes_ = simulation_.fluid().extremes();
+  refuse_grains_behind_walls(simulation_);
   if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
   lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
                       "lbm run");
@@ -109,7 +111,8 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
-  for (const std::string& line : manifest(simulation_, grains, effects)) say("lbm run: " + line);
+  for (const std::string& line : manifest(simulation_, grains, effects, request.walls))
+    say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
   simulation_.map();
   refuse_overlaps(grains);

@@ -29,6 +29,18 @@ struct OutputRequest {
   bool contacts = false;  ///< beside the grains, which come with them
 };
 
+/// `lbm walls`: which walls of the script let water pass, and which side of the others holds water.
+struct WallSettings {
+  enum class Water {
+    with_grains,  ///< the spaces that grains lie in; all of them without grains
+    everywhere,
+    at_points,
+  };
+  std::vector<std::string> open;  ///< IDs of fixes, or of meshes
+  Water water = Water::with_grains;
+  std::vector<Vec3> points;  ///< m
+};
+
 /// `lbm restart write FILE every T`
 struct CheckpointRequest {
   std::string file;
@@ -42,6 +54,7 @@ struct LbmSettings {
   std::string region;  ///< of the fluid; empty: LIGGGHTS's box
   std::array<ScriptFace, lbm::kFaces> faces;
   ScriptVector gravity, pressure_gradient;
+  WallSettings walls;
   double smagorinsky = 0.1;   ///< constant of the eddy viscosity where turbulence is on
   double largest_mach = 0.3;  ///< the run stops above
   std::vector<MonitorRequest> monitors;
@@ -59,6 +72,7 @@ void read_boundary(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& 
 void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings);
 void read_collision(ArgumentReader& reader, LbmSettings& settings);
 void read_solid(ArgumentReader& reader, LbmSettings& settings);
+void read_walls(ArgumentReader& reader, LbmSettings& settings);
 void read_effect(ArgumentReader& reader, LbmSettings& settings);
 void read_couple(ArgumentReader& reader, LbmSettings& settings);
 void read_monitor(ArgumentReader& reader, LbmSettings& settings);

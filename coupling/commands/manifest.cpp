@@ -76,7 +76,8 @@ std::string bed_text(const CoupledSimulation& simulation, const LiggghtsPort::Su
 }  // namespace
 
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
-                                  const std::vector<EffectChoice>& effects) {
+                                  const std::vector<EffectChoice>& effects,
+                                  const std::vector<std::string>& walls) {
   const lbm::Fluid& fluid = simulation.fluid();
   const lbm::Units& units = simulation.units();
   const lbm::Index3& cells = fluid.decomposition().cells();
@@ -90,6 +91,7 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                   collision.incompressible ? ", incompressible" : ""));
   lines.push_back("            " + units.summary());
   lines.push_back("faces       " + faces_text(fluid.settings().faces));
+  lines.insert(lines.end(), walls.begin(), walls.end());
   lines.push_back("grains      " + grains_text(grains, units.spacing()));
   if (const std::string bed = bed_text(simulation, grains); !bed.empty()) lines.push_back(bed);
   if (grains.grains > 0) lines.push_back("solids      " + solids_text(simulation.settings().solids));

@@ -107,10 +107,10 @@ Quantity layer_quantity(const std::string& word, const MonitorRequest& monitor, 
 /// Height below which this share of the solids' volume lies, m above the first plane's low side.
 double solid_height(const PlaneSums& planes, double share) {
   double all = 0, sum = 0;
-  for (const double open : planes.open_share) all += 1 - open;
+  for (std::size_t i = 0; i < planes.planes(); ++i) all += planes.solid_share(i);
   if (all <= 0) return 0;
   for (std::size_t i = 0; i < planes.planes(); ++i) {
-    const double here = 1 - planes.open_share[i];
+    const double here = planes.solid_share(i);
     if (sum + here >= share * all)
       return planes.spacing * (static_cast<double>(i) + (here > 0 ? (share * all - sum) / here : 0));
     sum += here;
@@ -121,7 +121,7 @@ double solid_height(const PlaneSums& planes, double share) {
 double centre_of_solids(const PlaneSums& planes) {
   double all = 0, moment = 0;
   for (std::size_t i = 0; i < planes.planes(); ++i) {
-    const double here = 1 - planes.open_share[i];
+    const double here = planes.solid_share(i);
     all += here;
     moment += here * planes.spacing * (static_cast<double>(i) + 0.5);
   }
@@ -137,9 +137,9 @@ Quantity bed_quantity(int axis) {
             const PlaneSums& planes = sample.planes();
             const double height = solid_height(planes, kBedShare);
             double solid = 0;
-            for (const double open : planes.open_share) solid += planes.spacing * (1 - open);
+            for (std::size_t i = 0; i < planes.planes(); ++i) solid += planes.spacing * planes.solid_share(i);
             row.push_back(height);
-            row.push_back(height > 0 ? 1 - kBedShare * solid / height : 1);
+            row.push_back(height > 0 ? 1 - kBedShare * solid / planes.room_below(height) : 1);
             row.push_back(centre_of_solids(planes));
           }};
 }
@@ -295,8 +295,10 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
             }};
   if (word == "hydraulic_gradient")
     return {{word + "_" + axis_name(axis)}, [](Sample& sample, std::vector<double>& row) {
-              row.push_back(gradient_between(
-                  sample, 0, sample.planes().spacing * static_cast<double>(sample.planes().planes())));
+              const PlaneSums& planes = sample.planes();
+              row.push_back(gradient_between(sample,
+                                             planes.spacing * static_cast<double>(planes.first_with_room()),
+                                             planes.spacing * static_cast<double>(planes.end_of_room())));
             }};
   if (word.starts_with("layer_")) {
     check_layers(monitor, now.simulation);

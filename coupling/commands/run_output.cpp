@@ -108,6 +108,7 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
     save_settings(state, simulation);
     save_references(state, references, lmp->world);
     save_pore_coefficients(state, simulation);
+    save_walls(state, simulation);
     state.close();
   }
   write_grains_file(lmp, set.grains);

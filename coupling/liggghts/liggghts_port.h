@@ -119,6 +119,9 @@ class LiggghtsPort final : public ParticlePort {
   };
   Summary summary() const;
 
+  /// Centres of this rank's grains of the fix's group, m.
+  std::vector<Vec3> centres() const;
+
   /// How many grains of the fix's group have diameters in each class: below the first bound, between the
   /// first and second, ..., above the last (m, rising). Collective.
   std::vector<double> grains_by_size(const std::vector<double>& bounds) const;

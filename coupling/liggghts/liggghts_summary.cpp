@@ -133,6 +133,14 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   return summary;
 }
 
+std::vector<Vec3> LiggghtsPort::centres() const {
+  std::vector<Vec3> centres;
+  for (int i = 0; i < lmp_->atom->nlocal; ++i)
+    if ((lmp_->atom->mask[i] & fix_->groupbit) != 0)
+      centres.emplace_back(Eigen::Map<const Vec3>(lmp_->atom->x[i]));
+  return centres;
+}
+
 std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& bounds) const {
   std::vector<double> counts(bounds.size() + 1, 0);
   for (int i = 0; i < lmp_->atom->nlocal; ++i) {

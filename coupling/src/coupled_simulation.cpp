@@ -119,6 +119,31 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
   fluid_.set_force(units_.force_density_to_lattice(si));
 }
 
+void CoupledSimulation::set_walls(const lbm::Walls& walls, const std::string& acting) {
+  fluid_.set_walls(walls);
+  mapping_.set_closed(walls.closed);
+  acting_walls_ = acting;
+}
+
+long CoupledSimulation::grains_behind_walls() const {
+  if (!fluid_.has_closed_cells()) return 0;
+  constexpr double least_radius = 0.87;  // half the diagonal of a cell
+  const lbm::CellBox& box = fluid_.decomposition().local_box();
+  long count = 0;
+  for (const LatticeSphere& sphere : spheres_) {
+    lbm::Index3 cell{};
+    bool here = sphere.radius >= least_radius;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double at = std::floor(sphere.position[a]);
+      here = here && at >= box.lo[a] && at < box.hi[a];
+      if (here) cell[a] = static_cast<int>(at);
+    }
+    if (here && fluid_.is_closed(cell)) ++count;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &count, 1, MPI_LONG, MPI_SUM, fluid_.decomposition().communicator());
+  return count;
+}
+
 void CoupledSimulation::map() {
   place_spheres();
   const Stopwatch watch(times_.mapping);

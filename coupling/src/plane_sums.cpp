@@ -12,7 +12,7 @@ namespace {
 
 /// What is summed for each plane, lattice units.
 struct Sums {
-  double flux[3], solid_flux[3], open, pressure;
+  double flux[3], solid_flux[3], room, open, pressure;
 };
 constexpr int kSums = sizeof(Sums) / sizeof(double);
 
@@ -40,6 +40,7 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
       plane.flux[a] += point.velocity[a];
       plane.solid_flux[a] += solid[a];
     }
+    plane.room += fluid.is_closed(cell) ? 0 : 1;
     plane.open += open;
     plane.pressure += open * (point.density - 1);
     const double speed_squared = point.velocity.squaredNorm();
@@ -66,6 +67,7 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
     planes.flux.push_back(units.velocity_to_si(Vec3(s.flux[0], s.flux[1], s.flux[2]) / cells));
     planes.solid_flux.push_back(
         units.velocity_to_si(Vec3(s.solid_flux[0], s.solid_flux[1], s.solid_flux[2]) / cells));
+    planes.room.push_back(s.room / cells);
     planes.open_share.push_back(s.open / cells);
     planes.pressure.push_back(s.open > 0 ? units.density_lattice_to_pressure(1 + s.pressure / s.open) : 0);
   }
@@ -77,22 +79,52 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   return planes;
 }
 
+std::size_t PlaneSums::first_with_room() const {
+  std::size_t plane = 0;
+  while (plane + 1 < planes() && room[plane] == 0) ++plane;
+  return plane;
+}
+
+std::size_t PlaneSums::end_of_room() const {
+  std::size_t end = planes();
+  while (end > 1 && room[end - 1] == 0) --end;
+  return end;
+}
+
+double PlaneSums::room_below(double height) const {
+  double behind_walls = 0;
+  for (std::size_t i = 0; i < planes(); ++i) {
+    const double low = spacing * static_cast<double>(i), part = std::clamp(height - low, 0., spacing);
+    behind_walls += (1 - room[i]) * part;
+  }
+  return height - behind_walls;
+}
+
 Vec3 PlaneSums::superficial_velocity(std::size_t begin, std::size_t end) const {
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = begin; i < end; ++i) sum += flux[i] - solid_flux[i];
-  return sum / static_cast<double>(std::max<std::size_t>(1, end - begin));
+  double area = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    sum += flux[i] - solid_flux[i];
+    area += room[i];
+  }
+  return area > 0 ? Vec3(sum / area) : Vec3::Zero();
 }
 
 double PlaneSums::porosity(std::size_t begin, std::size_t end) const {
-  double sum = 0;
-  for (std::size_t i = begin; i < end; ++i) sum += open_share[i];
-  return sum / static_cast<double>(std::max<std::size_t>(1, end - begin));
+  double sum = 0, all = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    sum += open_share[i];
+    all += room[i];
+  }
+  return all > 0 ? sum / all : 0;
 }
 
 double PlaneSums::pressure_at(double height) const {
-  if (planes() == 1) return pressure[0];
-  const double position = height / spacing - 0.5, last = static_cast<double>(planes() - 2);
-  const auto below = static_cast<std::size_t>(std::clamp(std::floor(position), 0., last));
+  const std::size_t first = first_with_room(), end = end_of_room();
+  if (end - first == 1) return pressure[first];
+  const double position = height / spacing - 0.5;
+  const auto below = static_cast<std::size_t>(
+      std::clamp(std::floor(position), static_cast<double>(first), static_cast<double>(end - 2)));
   const double share = position - static_cast<double>(below);
   return (1 - share) * pressure[below] + share * pressure[below + 1];
 }

@@ -255,10 +255,34 @@ void SolidMapping::set_pore_coefficients(const float* coefficients) {
 void SolidMapping::write_rows(const lbm::RowBlock& block) {
   if (dirty_[static_cast<std::size_t>(block.z)] == 0) return;
   clear_rows(block);
-  const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-  kernels_of(instruction_set_)
-      .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), notes());
-  noted_block_ = static_cast<std::ptrdiff_t>(number_of(block));
+  if (!first_slice_.empty()) {
+    const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
+    kernels_of(instruction_set_)
+        .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), notes());
+    noted_block_ = static_cast<std::ptrdiff_t>(number_of(block));
+  }
+  cover_closed(block);
+}
+
+void SolidMapping::set_closed(const std::vector<std::uint8_t>& closed) {
+  if (closed.empty() && closed_.empty()) return;
+  closed_ = closed;
+  std::fill(dirty_.begin(), dirty_.end(), char{1});
+  stale_ = true;
+}
+
+void SolidMapping::cover_closed(const lbm::RowBlock& block) const {
+  if (closed_.empty()) return;
+  const float strength = settings_.cells.own_coefficients ? kLargestCellCoefficient : 1;
+  for (int y = block.begin_y; y < block.end_y; ++y)
+    for (int x = 0; x < box_.extent(0); ++x) {
+      if (closed_[static_cast<std::size_t>(x + box_.extent(0) * (y + box_.extent(1) * block.z))] == 0)
+        continue;
+      const std::ptrdiff_t cell = x + arrays_.row_pitch * y + arrays_.plane_pitch * block.z;
+      arrays_.strength[cell] = strength;
+      arrays_.fraction[cell] = 1;  // perhaps the same array
+      for (float* momentum : arrays_.momentum) momentum[cell] = 0;
+    }
 }
 
 void SolidMapping::finish_writing() {
@@ -325,7 +349,7 @@ double SolidMapping::overlap() const {
 std::size_t SolidMapping::bytes() const {
   return mapped_.capacity() * sizeof(MappedSphere) + placed_.capacity() * sizeof(LatticeSphere) +
          loads_.capacity() * sizeof(LatticeLoad) + entries_.capacity() * sizeof(float) +
-         rows_.capacity() * sizeof(SliceRows) +
+         rows_.capacity() * sizeof(SliceRows) + closed_.capacity() +
          (slices_.capacity() + first_slice_.capacity() + order_.capacity()) * sizeof(int);
 }
 

@@ -103,6 +103,19 @@ void Fluid::set_solids(const std::function<std::uint8_t(const Index3& cell)>& la
   });
 }
 
+void Fluid::set_walls(const Walls& walls) {
+  core_->set_walls(walls);
+}
+
+bool Fluid::is_closed(const Index3& cell) const {
+  const Index3& lo = core_->decomposition.local_box().lo;
+  return core_->is_closed(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
+}
+
+bool Fluid::has_closed_cells() const {
+  return core_->has_closed();
+}
+
 PartialSolidArrays Fluid::use_partial_solids(const PartialSolidSettings& settings) {
   return core_->use_partial_solids(settings);
 }

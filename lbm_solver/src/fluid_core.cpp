@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace suffuse::lbm {
@@ -137,6 +138,7 @@ void FluidCore<T>::sweep_planes(Kernel<T> kernel, RowVisitor* visitor, int begin
   call.end_z = end_z;
   if (visitor == nullptr && !patches_.has_near_rows() && !halo_.has_near_rows()) {
     kernel(call);
+    clear_exchange_of_closed(call);
     return;
   }
   const int rows = rows_per_block();
@@ -163,10 +165,37 @@ void FluidCore<T>::sweep_rows(KernelCall<T>& call, Kernel<T> kernel, RowVisitor*
     if (visitor->reads_exchange()) store_->give_rows_to(call, block, rows_per_block());
   }
   kernel(call);
+  clear_exchange_of_closed(call);
   if (visitor != nullptr && visitor->reads_exchange())
     visitor->after(block, PartialSolidStore<T>::exchange_of(call));
   halo_.apply_near_rows(populations_, odd, block.begin_y, block.end_y, block.z);
   patches_.apply_near_rows(populations_, odd, block.begin_y, block.end_y, block.z);
+}
+
+/// A grain that leans over a wall gets nothing from the cells behind it.
+template <class T>
+void FluidCore<T>::clear_exchange_of_closed(const KernelCall<T>& call) const {
+  if (closed_.empty() || !store_) return;
+  const auto length = static_cast<std::size_t>(call.cells_x);
+  for (int z = call.begin_z; z < call.end_z; ++z)
+    for (int y = call.begin_y; y < call.end_y; ++y) {
+      const std::uint8_t* row =
+          closed_.data() + length * static_cast<std::size_t>(y + populations_.cells()[1] * z);
+      if (std::memchr(row, 1, length) == nullptr) continue;
+      for (T* exchange : call.exchange) {
+        T* values = exchange + populations_.index(0, y, z);
+        for (std::size_t x = 0; x < length; ++x) values[x] = row[x] != 0 ? T(0) : values[x];
+      }
+    }
+}
+
+template <class T>
+void FluidCore<T>::set_walls(const Walls& walls) {
+  int mine = walls.empty() ? 0 : 1, somewhere = 0;
+  MPI_Allreduce(&mine, &somewhere, 1, MPI_INT, MPI_MAX, decomposition.communicator());
+  walls_.reset();
+  closed_ = walls.closed;
+  if (somewhere != 0) walls_ = std::make_unique<WallLinks<T>>(decomposition, populations_, walls);
 }
 
 template <class T>
@@ -201,11 +230,13 @@ void FluidCore<T>::step(RowVisitor* visitor) {
     halo_.fold(populations_);
     patches_.fold(populations_, settings.faces, context);
     if (links_) links_->fold(populations_);
+    if (walls_) walls_->fold(populations_);
   } else {
     patches_.extend_fill(populations_, settings.faces, context);
     halo_.fill(populations_);
     patches_.fill(populations_, settings.faces, context);
     if (links_) links_->fill(populations_);
+    if (walls_) walls_->fill(populations_);
   }
   odd = !odd;
   ++steps;

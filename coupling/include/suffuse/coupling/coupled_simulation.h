@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "suffuse/coupling/automatic_coefficient.h"
@@ -90,6 +91,16 @@ class CoupledSimulation {
   CoupledTimes& times() { return times_; }
   const CoupledTimes& times() const { return times_; }
 
+  /// Walls for the water from the next step on, instead of those before; `acting` describes them, so that a
+  /// saved state can tell whether they are the same. Grains get no load from cells behind them. Collective.
+  void set_walls(const lbm::Walls& walls, const std::string& acting);
+  const std::string& acting_walls() const { return acting_walls_; }
+
+  /// Grains, as they were last read, whose centre lies in a cell behind walls: they have no water. Those
+  /// below 1.74 cells per diameter are not looked at: the cell of their centre may lie on the other side of a
+  /// wall that they touch. Collective.
+  long grains_behind_walls() const;
+
   /// New values from the next step on, SI.
   void set_faces(const lbm::FaceConditions& faces) { fluid_.set_faces(faces); }
   void set_gravity(const Vec3& si) { settings_.gravity = si; }
@@ -124,6 +135,7 @@ class CoupledSimulation {
   long loads_step_ = kNever;       ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;
+  std::string acting_walls_;
   std::vector<double> force_, torque_, lead_, spin_lead_;
   CoupledTimes times_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "suffuse/coupling/settings.h"
@@ -33,6 +34,10 @@ class SolidMapping {
   /// What the pores add to the spheres' coefficients in each cell, laid out as the fractions; null: nothing.
   /// With own_coefficients only. All cells wait to be written then.
   void set_pore_coefficients(const float* coefficients);
+
+  /// Cells behind walls (one value each, x fastest; empty: none) are covered whole by something at rest,
+  /// whatever spheres reach into them. All cells wait to be written then.
+  void set_closed(const std::vector<std::uint8_t>& closed);
 
   /// Whether any cell waits to be written.
   bool is_stale() const { return stale_; }
@@ -74,6 +79,7 @@ class SolidMapping {
   SliceList slices_in(const lbm::RowBlock& block) const;
   SliceNotes notes();
   void clear_rows(const lbm::RowBlock& block) const;
+  void cover_closed(const lbm::RowBlock& block) const;
   template <class Visit>
   void for_each_block(const Visit& visit) const;
 
@@ -94,6 +100,7 @@ class SolidMapping {
   std::ptrdiff_t noted_block_ = -1;
   std::vector<LatticeLoad> loads_;
   const float* pore_coefficients_ = nullptr;
+  std::vector<std::uint8_t> closed_;
   lbm::HeldTerms held_;
 };
 

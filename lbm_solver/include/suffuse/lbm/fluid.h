@@ -13,6 +13,7 @@
 #include "suffuse/lbm/instruction_set.h"
 #include "suffuse/lbm/partial_solids.h"
 #include "suffuse/lbm/row_visitor.h"
+#include "suffuse/lbm/walls.h"
 
 namespace suffuse::lbm {
 
@@ -64,15 +65,24 @@ class Fluid {
   /// Marks solid cells: `label_of` gives 0 for fluid, 1 to 255 for a solid with that label. It is asked for
   /// every cell of the rank and the cells around it (through periodic faces and mirrored by free-slip ones).
   void set_solids(const std::function<std::uint8_t(const Index3& cell)>& label_of);
+  /// Marked as solid, or behind walls.
   bool is_solid(const Index3& cell) const;
   std::uint8_t solid_label(const Index3& cell) const;
+
+  /// Walls between cells from the next step on, instead of those before. What closed cells hold has no
+  /// meaning: the caller covers them (use_partial_solids) so that it stays at rest. Collective.
+  void set_walls(const Walls& walls);
+  /// Is a cell of this rank behind walls? And any cell of any rank?
+  bool is_closed(const Index3& cell) const;
+  bool has_closed_cells() const;
 
   /// From now on cells may be covered in part, by whatever the caller writes to the arrays (all zero at
   /// first) between steps. They stay valid as long as the fluid, or until the next call of this function. Not
   /// together with set_solids. A UserError where settings cannot work.
   PartialSolidArrays use_partial_solids(const PartialSolidSettings& settings);
 
-  /// Share of a cell of this rank that solids cover, 0 to 1; a cell of set_solids counts as one.
+  /// Share of a cell of this rank that solids cover, 0 to 1; a cell of set_solids or behind walls counts as
+  /// one.
   double solid_fraction(const Index3& cell) const;
 
   /// Force per cell and step from the next step on, the same everywhere.
