@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """grain_loop.py --sample FILE [--copies NX NY NZ] [--only ours] [--suffuse PROGRAM] [--modulus PA] [--skins M ...] [--steps N] [--repeats N]
-[--ranks N] [--csv FILE]
+[--ranks N] [--csv FILE] [--lammps PROGRAM]
 
 A step of a sample (restart file of scene 01, or its dump of grains, which may stand side by side as copies; springs are zero then)
-with our contact loop and neighbour lists, as a share of LIGGGHTS's own (`-suffix off`), in runs that take turns. Processor time of the whole process, less that of a run of no steps, so that other work on
+with our contact loop and neighbour lists, as a share of LIGGGHTS's own (`-suffix off`), in runs that take turns; with --lammps (Debian's `lammps`, program lmp) also with its gran/hertz/history, from a dump. Processor time of the whole process, less that of a run of no steps, so that other work on
 the machine counts little; the median of the pairs' ratios. Also: the contact loop alone, the lists alone, and memory.
 """
 import argparse
@@ -32,7 +32,7 @@ fix modulus all property/global youngsModulus peratomtype {modulus}
 fix ratio all property/global poissonsRatio peratomtype 0.3
 fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
 fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
+pair_style gran model hertz tangential history {contact_options}
 pair_coeff * *
 fix motion all nve/sphere
 timestep {step}
@@ -40,16 +40,41 @@ thermo_style custom step atoms
 thermo_modify lost error norm no
 run {steps}
 """
+# The same springs, masses and lists; LAMMPS's damping is by a coefficient, here one of about the same restitution.
+LAMMPS_SCRIPT = """
+units si
+atom_style sphere
+atom_modify map array
+comm_modify vel yes
+boundary p p p
+newton off
+{read}
+neighbor {skin} {lists}
+neigh_modify delay 0
+pair_style gran/hertz/history {normal} {tangential} {damping} NULL 0.3 1
+pair_coeff * *
+fix motion all nve/sphere
+timestep {step}
+thermo_style custom step atoms
+run {steps}
+"""
 VARIANTS = {"stock": ["-suffix", "off"], "ours": []}
 
 
 def run(options, folder, variant, skin, steps):
     """Processor seconds of all ranks, and what LIGGGHTS says: shares of its loop, lists, memory (MB, the largest process)."""
-    text = SCRIPT.format(read=options.read, modulus=options.modulus, skin=skin, step=options.time_step, steps=steps)
+    if variant == "lammps":
+        shear = options.modulus / (2 * 1.3)
+        text = LAMMPS_SCRIPT.format(read=options.read, skin=skin, lists="multi", normal=2 / 3 * options.modulus / (1 - 0.3 ** 2), tangential=4 * shear / (2 - 0.3),
+                                    damping=options.lammps_damping, step=options.time_step, steps=steps)
+    else:
+        text = SCRIPT.format(read=options.read, modulus=options.modulus, skin=skin, step=options.time_step, steps=steps,
+                             contact_options=options.contact_options if variant == "ours" else "")
     (folder / "in.benchmark").write_text(text)
     launcher = [str(ROOT / "scripts" / "mpirun"), str(options.ranks)] if options.ranks > 1 else []
     with open(folder / "screen", "w") as screen:
-        child = subprocess.Popen([*launcher, options.suffuse, *VARIANTS[variant], "-in", "in.benchmark", "-log", "log.benchmark"],
+        program = options.lammps if variant == "lammps" else options.suffuse
+        child = subprocess.Popen([*launcher, program, *VARIANTS[variant], "-in", "in.benchmark", "-log", "log.benchmark"],
                                  cwd=folder, stdout=screen, stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
@@ -57,7 +82,7 @@ def run(options, folder, variant, skin, steps):
     if child.returncode != 0:
         sys.exit(f"{variant} ended with code {child.returncode}:\n{(folder / 'screen').read_text(errors='replace')[-2000:]}")
     seconds = usage.ru_utime + usage.ru_stime
-    parts = {name: float(value) for name, value in re.findall(r"^(Pair|Neigh|Comm|Other|Modify) +time \(%\) = (\S+)", log, re.MULTILINE)}
+    parts = {name: float(value) for name, value in re.findall(r"^(Pair|Neigh|Comm|Other|Modify) +(?:time \(%\) = |\| [^|]+\| )(\S+)", log, re.MULTILINE)}
     found = re.findall(r"Neighbor list builds = (\d+)", log)
     return seconds, parts, int(found[-1]), usage.ru_maxrss / 1024, int(re.findall(r"with (\d+) atoms", log)[-1])
 
@@ -99,9 +124,11 @@ def measured(options, folder, skin):
     row = {"grains": any_one[4], "ranks": options.ranks, "skin_m": skin}
     for v in VARIANTS:
         row |= {f"step_{v}_ms": min(a_step[v]), f"grain_step_{v}_ns": 1e6 * min(a_step[v]) / any_one[4], f"lists_{v}": last[v][2], f"memory_{v}_mb": last[v][3]}
-    if len(VARIANTS) == 2:
+    if {"ours", "stock"} <= VARIANTS.keys():
         row |= {"ratio": statistics.median(o / s for o, s in zip(a_step["ours"], a_step["stock"])),
                 "pair_ratio": least["ours"]["Pair"] / least["stock"]["Pair"], "memory_ratio": last["ours"][3] / last["stock"][3]}
+    if "lammps" in VARIANTS:
+        row |= {"ratio_to_lammps": statistics.median(o / s for o, s in zip(a_step["ours"], a_step["lammps"]))}
     print("  ".join(f"{key} {value:.4g}" for key, value in row.items()), flush=True)
     for v in VARIANTS:
         print(f"    {v}: ms a step " + ", ".join(f"{part} {value:.2f}" for part, value in least[v].items()), flush=True)
@@ -121,8 +148,13 @@ def main():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--csv", type=pathlib.Path)
+    parser.add_argument("--contact-options", default="", help='of our loop, such as "lost_springs keep normal_at full_step": LIGGGHTS\'s and LAMMPS\'s rules')
+    parser.add_argument("--lammps", help="its program, such as lmp; needs a dump as --sample")
+    parser.add_argument("--lammps-damping", type=float, default=1e6, help="its gamma_n, 1/(s m)")
     options = parser.parse_args()
     rows = []
+    if options.lammps:
+        VARIANTS["lammps"] = []
     if options.only:
         for variant in [v for v in VARIANTS if v != options.only]:
             del VARIANTS[variant]
