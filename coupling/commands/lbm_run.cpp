@@ -70,7 +70,8 @@ std::string LbmRun::details() const {
 }
 
 void LbmRun::check(long step) {
-  if (step % kCheckEvery != 0 && step != last_ && step != first_) return;
+  // Before anything is written, too: nothing of a flow that is lost.
+  if (step % kCheckEvery != 0 && step != last_ && step != first_ && !output_.due(step)) return;
   extremes_ = simulation_.fluid().extremes();
   if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
   lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
@@ -95,7 +96,7 @@ bool LbmRun::is_steady(double share) {
 void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
                    std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
-  const long steps = steps_in(request.time, units);
+  const long steps = units.steps_in(request.time);
   if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
       dem_steps > MAXSMALLINT)
     throw_user_error({"lbm run", "time",
@@ -119,8 +120,8 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   first_ = simulation_.fluid().steps();
   last_ = first_ + steps;
   start_ = MPI_Wtime();
-  output_.write(lmp_, port_, simulation_);
   check(first_);
+  output_.write(lmp_, port_, simulation_);
 }
 
 /// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
@@ -139,10 +140,10 @@ void LbmRun::advance(long step, bool is_last) {
 /// What is due after a step; true if the flow has become steady.
 bool LbmRun::look(long step, const RunRequest& request) {
   const double before = MPI_Wtime();
-  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
   check(step);
+  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
   const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, steps_in(window, simulation_.units()));
+  const long steady_every = std::max(10L, simulation_.units().steps_in(window));
   bool steady = false;
   if (request.steady && (step - first_) % steady_every == 0) {
     simulation_.map();

@@ -378,11 +378,6 @@ void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settin
                         "give each its own file"});
 }
 
-long steps_in(double seconds, const lbm::Units& units) {
-  constexpr double most = 1e15;  // no run gets there
-  return std::max(1L, std::lround(std::min(most, units.time_to_lattice(seconds))));
-}
-
 lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
   lbm::FaceConditions faces;
   for (std::size_t f = 0; f < lbm::kFaces; ++f) {

@@ -50,6 +50,11 @@ def check_ranks(program):
             screen = Program(program.suffuse, program.mpirun, ranks).must_run(text, folder, timeout=300)
             states.append(positions(path / "grains.dump"))
             check_output(path, screen, columns(path / "flow.csv"))
+        if len(states) > 1:  # the second run has kept what the first one left
+            for name in ("flow.csv", "bed.h5", "bed.xdmf", "bed_grains.h5", "bed_grains.xdmf"):
+                expect(f"note: {name} of an earlier run is now {name}.before" in screen and (path / f"{name}.before").exists(),
+                       f"{name} of the first run is gone without a word")
+            expect(len(columns(path / "flow.csv.before")["time_s"]) == 12, "flow.csv.before is not whole")
     one, many = states[0], states[-1]
     expect(len(one) == 40 and one.keys() == many.keys(), f"{len(one)} and {len(many)} grains")
     largest = max(abs(a - b) for grain in one for a, b in zip(one[grain][:3], many[grain][:3]))
@@ -65,6 +70,18 @@ def check_drag_note(program):
         for collision, said in (("trt", True), ("trt_comoving", False)):
             screen = program.must_run(wet_box() + WATER + f"lbm collision {collision}\nlbm run 4e-3\n", folder)
             expect((note in screen) == said, f"with {collision}: {screen[-600:]}")
+
+
+def check_lost_flow(program):
+    """An inflow that becomes too fast ends the run before a row of it is written."""
+    rising = "variable fast equal 0.2*step*dt/4e-3\nlbm boundary zlo velocity 0 0 v_fast zhi pressure 0\n"
+    monitor = "lbm monitor m every 2e-5 file m.csv extremes\n"
+    with scratch() as folder:
+        code, screen = program.run(wet_box(grains=0) + WATER + rising + monitor + "lbm run 1\n", folder)
+        expect(code == 1 and "Mach number" in screen, f"the run ended with {code}: {screen[-600:]}")
+        mach = columns(pathlib.Path(folder) / "m.csv")["largest_mach"]
+        # The inlet gains 0.0018 of Mach between two samples.
+        expect(0.28 < mach[-1] <= 0.3, f"the last rows have Mach numbers {mach[-3:]}")
 
 
 def check_output(folder, screen, series):
@@ -140,6 +157,7 @@ def main():
     program = program_from_command_line(__doc__)
     largest = check_ranks(program)
     check_drag_note(program)
+    check_lost_flow(program)
     check_restart(program)
     check_steady_and_grains(program)
     print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
