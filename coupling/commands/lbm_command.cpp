@@ -325,6 +325,7 @@ void LbmCommand::plan(ArgumentReader& reader) {
 void LbmCommand::run(ArgumentReader& reader) {
   require_lattice(reader.who());
   RunRequest request;
+  const bool until = reader.accept("until");
   request.time = reader.positive("time");
   if (reader.accept("until")) {
     if (!reader.accept("steady")) reader.unknown(reader.word("condition"), "steady");
@@ -340,6 +341,15 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_unchanged();
     port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
     simulation_->set_substeps(choose_substeps());
+  }
+  if (until) {
+    request.time -= simulation_->time_si();
+    if (request.time < 0.5 * simulation_->units().time_step()) {
+      port_->set_fluid_time(simulation_->time_si());
+      tell(lmp_, fmt::format("lbm run: the fluid is at {:.6g} s already: nothing to run\n",
+                             simulation_->time_si()));
+      return;
+    }
   }
   warn_about_held_grains();
   LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);

@@ -106,7 +106,9 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
                   [](const OutputRequest& output) { return output.contacts; }))
     port_.use_contacts();
+  port_.set_fluid_time(simulation_.time_si());  // what LIGGGHTS's setup prints may ask for it
   port_.begin(steps * simulation_.substeps());
+  port_.set_fluid_time(simulation_.time_si());
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
@@ -127,6 +129,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
 /// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
 void LbmRun::advance(long step, bool is_last) {
   port_.check_unchanged();
+  port_.set_fluid_time(simulation_.time_si());
   if (follow_variables_) set_values();
   if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
   if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
@@ -231,6 +234,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   const double made = static_cast<double>(simulation_.fluid().steps() - first_);
   simulation_.refresh_loads();
   port_.end();
+  port_.set_fluid_time(simulation_.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
   const std::string where_time_went = table();
   if (request.steady)

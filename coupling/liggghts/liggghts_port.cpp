@@ -64,6 +64,7 @@ LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
     made_fix_ = true;
   }
   fix_ = find_force_fix(lmp);
+  keep_box();
 }
 
 void LiggghtsPort::withdraw() {
@@ -330,12 +331,20 @@ void LiggghtsPort::begin(std::int64_t steps) {
   EarlyStop::requested = false;
   lmp_->init();
   every_step_ = !moves_ && acts_in_every_step();
+  running_ = true;
   update->integrate->setup();
   lmp_->timer->init();
-  const auto* domain = lmp_->domain;
-  std::copy_n(domain->boxlo, 3, box_.begin());
-  std::copy_n(domain->boxhi, 3, box_.begin() + 3);
-  running_ = true;
+  keep_box();
+}
+
+void LiggghtsPort::keep_box() {
+  std::copy_n(lmp_->domain->boxlo, 3, box_.begin());
+  std::copy_n(lmp_->domain->boxhi, 3, box_.begin() + 3);
+}
+
+void LiggghtsPort::set_fluid_time(double seconds) {
+  using enum FixHydrodynamicForce::Fluid;
+  if (auto* fix = find_force_fix(lmp_)) fix->set_fluid_time(seconds, running_ ? flows : rests);
 }
 
 void LiggghtsPort::end_after(int substeps) {

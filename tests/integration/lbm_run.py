@@ -130,6 +130,38 @@ def check_restart(program):
     expect(not different, f"{len(different)} grains differ, first {whole[different[0]]} {second[different[0]]}" if different else "")
 
 
+def check_time_over_restart(program):
+    """A head that follows the water's time, in a run that is continued with another DEM step: the same head at every time,
+    the end where it was to be, and the same flow but for the integration of the grains' motion."""
+    water = WATER + "variable head equal 5*f_hydrodynamic_force/4e-3\nlbm boundary zlo pressure v_head zhi pressure 0\n" \
+        "variable liggghts equal step*dt\n" \
+        "lbm monitor m every 1e-4 file m.csv v_head as head_pa v_liggghts as step_times_dt superficial_velocity\n"
+    with scratch() as folder:
+        path = pathlib.Path(folder)
+        Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
+        program.must_run(wet_box(restart="start") + water + "lbm run 2e-3\nlbm restart write half.h5\nlbm run until 4e-3\n", folder)
+        whole = columns(path / "m.csv")
+        slower = wet_box(restart="half.h5.grains").replace("timestep 1e-6", "timestep 4e-7")
+        expect("timestep 4e-7" in slower, "the scene's step is another one")
+        screen = program.must_run(slower + 'print "water at $(f_hydrodynamic_force) s"\n' + water +
+                                  "lbm restart read half.h5\nlbm run until 4e-3\nlbm run until 1e-3\n"
+                                  'print "then at $(f_hydrodynamic_force) s"\n', folder)
+        both = columns(path / "m.csv")
+    step = 1.25e-4 ** 2 * 0.015 / 3 / 1e-6  # of the fluid, s
+    said = [float(word) for word in re.findall(r"water at (\S+) s", screen)] + \
+        [float(word) for word in re.findall(r"then at (\S+) s", screen)]
+    expect(len(said) == 2 and abs(said[0] - 2e-3) < step and abs(said[1] - 4e-3) < step, f"the script reads times {said}")
+    expect("the fluid is at 0.00398438 s already" in screen, f"a time that has passed is run again:\n{screen[-1500:]}")
+    expect(whole["time_s"] == both["time_s"] and len(both["time_s"]) > 38, f"{len(whole['time_s'])}, {len(both['time_s'])} rows")
+    for time, head in zip(both["time_s"], both["head_pa"]):
+        expect(abs(head - 5 * time / 4e-3) < 1e-9, f"head {head} Pa at {time} s")
+    jump = max(abs(b - t) for b, t in zip(both["step_times_dt"], both["time_s"]))
+    expect(jump > 0.5e-3, f"the DEM's step was to differ: step*dt is within {jump} s of the water's time")
+    # Velocity-Verlet's error of the falling grains at either step is far below this.
+    one, two = (series["superficial_velocity_z_m_per_s"][-1] for series in (whole, both))
+    expect(abs(one / two - 1) < 1e-3, f"flow {one} and {two} m/s")
+
+
 def check_steady_and_grains(program):
     """Until steady; water without grains; grains inserted and deleted between runs leave no solids behind."""
     empty = wet_box(grains=0) + WATER + "lbm boundary zlo pressure 0.1 zhi pressure 0\n" + \
@@ -159,6 +191,7 @@ def main():
     check_drag_note(program)
     check_lost_flow(program)
     check_restart(program)
+    check_time_over_restart(program)
     check_steady_and_grains(program)
     print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
 
