@@ -53,6 +53,26 @@ CASES = [
 ]
 
 
+def check_variables(program, folder):
+    """A -var that the script does not know is refused before anything runs; one that only an included file knows is not."""
+    path = pathlib.Path(folder)
+    (path / "part_a.inc").write_text("variable size index 3\nprint 'size ${size}, ${kind}'\n")
+    (path / "in.variables").write_text("variable kind index a\ninclude ${script_folder}/part_${kind}.inc\n")
+
+    def run(*words):
+        return program.run_file("in.variables", folder, list(words), "log.variables", 60)
+
+    code, screen = run("-var", "size", "7")
+    expect(code == 0 and "size 7, a" in screen, f"-var size 7: {code}\n{screen[-500:]}")
+    code, screen = run("-var", "sise", "7")
+    lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
+    expect(code == 1 and len(lines) == 1 and "variable = sise, must be used by in.variables" in lines[0] and "kind, size" in lines[0]
+           and "size 3" not in screen, f"-var sise 7: {code}\n{screen[-500:]}")
+    code, screen = run("-var", "size", "7", "-var", "size", "8")
+    expect(code == 0 and "size 7, a" in screen and screen.count("-var size is given twice: 7 counts, 8 does not") == 1,
+           f"-var size twice: {code}\n{screen[-500:]}")
+
+
 def main():
     program = program_from_command_line(__doc__)
     with scratch() as folder:
@@ -60,6 +80,7 @@ def main():
         failures = mistakes_not_named(program, CASES, folder)
         code, screen = program.run_file(folder, folder, [], "log.folder", 60)
         expect(code == 1 and "readable script" in screen, f"a folder as script ended with code {code}")
+        check_variables(program, folder)
         code, screen = program.run("", folder, name="empty")
         expect(code == 0, f"an empty script ended with code {code}")
     expect(not failures, "\n".join(failures))
