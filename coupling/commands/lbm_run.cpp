@@ -11,6 +11,7 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
+#include "scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"
@@ -106,6 +107,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
                   [](const OutputRequest& output) { return output.contacts; }))
     port_.use_contacts();
+  tell_meshes_beyond_periodic_faces(lmp_);
   port_.set_fluid_time(simulation_.time_si());  // what LIGGGHTS's setup prints may ask for it
   port_.begin(steps * simulation_.substeps());
   port_.set_fluid_time(simulation_.time_si());
@@ -217,6 +219,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
+  const GrainCensus census(lmp_);
   begin(request, effects, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
@@ -236,6 +239,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   port_.end();
   port_.set_fluid_time(simulation_.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
+  census.tell_lost();
   const std::string where_time_went = table();
   if (request.steady)
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",

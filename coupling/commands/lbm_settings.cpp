@@ -65,9 +65,9 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
 void read_fluid(ArgumentReader& reader, LbmSettings& settings) {
   lbm::UnitsRequest units = settings.coupled.units;
   while (!reader.done()) {
-    if (reader.accept("density"))
+    if (reader.keyword("density"))
       units.density = reader.positive("density");
-    else if (reader.accept("viscosity"))
+    else if (reader.keyword("viscosity"))
       units.viscosity = reader.positive("viscosity");
     else
       reader.unknown(reader.word("keyword"), "density, viscosity");
@@ -86,21 +86,21 @@ void read_lattice(ArgumentReader& reader, LbmSettings& settings) {
   lbm::Precision precision = settings.coupled.fluid.precision;
   std::string region = settings.region;
   while (!reader.done()) {
-    if (reader.accept("spacing"))
+    if (reader.keyword("spacing"))
       units.spacing = reader.positive("spacing");
-    else if (reader.accept("relaxation_time"))
+    else if (reader.keyword("relaxation_time"))
       units.relaxation_time = reader.positive("relaxation_time");
-    else if (reader.accept("timestep"))
+    else if (reader.keyword("timestep"))
       units.time_step = reader.positive("timestep");
-    else if (reader.accept("max_velocity"))
+    else if (reader.keyword("max_velocity"))
       units.largest_velocity = reader.positive("max_velocity");
-    else if (reader.accept("mach"))
+    else if (reader.keyword("mach"))
       units.mach = reader.positive("mach");
-    else if (reader.accept("precision"))
+    else if (reader.keyword("precision"))
       precision = choose<lbm::Precision>(
           reader, "precision",
           {{"double", lbm::Precision::double_precision}, {"float", lbm::Precision::float_precision}});
-    else if (reader.accept("region"))
+    else if (reader.keyword("region"))
       region = reader.word("region");
     else
       reader.unknown(reader.word("keyword"),
@@ -147,9 +147,9 @@ void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& set
     throw_user_error({reader.who(), "keyword", "missing", "be gravity or pressure_gradient", ""});
   ScriptVector gravity = settings.gravity, gradient = settings.pressure_gradient;
   while (!reader.done()) {
-    if (reader.accept("gravity"))
+    if (reader.keyword("gravity"))
       gravity = ScriptVector::read(reader, lmp, "gravity");
-    else if (reader.accept("pressure_gradient"))
+    else if (reader.keyword("pressure_gradient"))
       gradient = ScriptVector::read(reader, lmp, "pressure_gradient");
     else
       reader.unknown(reader.word("keyword"), "gravity, pressure_gradient");
@@ -167,12 +167,12 @@ void read_collision(ArgumentReader& reader, LbmSettings& settings) {
                                       {"trt_comoving", lbm::CollisionOperator::trt_comoving},
                                       {"central_moments", lbm::CollisionOperator::central_moments}});
   while (!reader.done()) {
-    if (reader.accept("magic")) {
+    if (reader.keyword("magic")) {
       if (!lbm::has_magic(collision.collision_operator))
         throw_user_error({reader.who(), "magic", "given", "go with trt or trt_comoving",
                           "drop it, or write `lbm collision trt magic ...`"});
       collision.magic = reader.positive("magic");
-    } else if (reader.accept("incompressible"))
+    } else if (reader.keyword("incompressible"))
       collision.incompressible = choose<bool>(reader, "incompressible", kYesNo);
     else
       reader.unknown(reader.word("keyword"), "magic, incompressible");
@@ -185,23 +185,23 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
   (void)reader.accept("psm");
   bool coefficient_given = false;
   while (!reader.done()) {
-    if (reader.accept("operator")) {
+    if (reader.keyword("operator")) {
       solids.cells.solid_operator = choose<lbm::SolidOperator>(reader, "operator",
                                                                {{"sc1", lbm::SolidOperator::sc1},
                                                                 {"sc2", lbm::SolidOperator::sc2},
                                                                 {"sc3", lbm::SolidOperator::sc3},
                                                                 {"force", lbm::SolidOperator::force}});
-    } else if (reader.accept("weighting")) {
+    } else if (reader.keyword("weighting")) {
       solids.cells.weighting = choose<lbm::SolidWeighting>(
           reader, "weighting",
           {{"fraction", lbm::SolidWeighting::fraction},
            {"noble_torczynski", lbm::SolidWeighting::noble_torczynski},
            {"viscosity_independent", lbm::SolidWeighting::viscosity_independent}});
-    } else if (reader.accept("coefficient")) {
+    } else if (reader.keyword("coefficient")) {
       coefficient_given = true;
       solids.automatic_coefficient = reader.accept("auto");
       if (!solids.automatic_coefficient) solids.cells.coefficient = reader.positive("coefficient");
-    } else if (reader.accept("fraction")) {
+    } else if (reader.keyword("fraction")) {
       solids.fraction = choose<FractionMethod>(reader, "fraction",
                                                {{"exact", FractionMethod::exact},
                                                 {"linear", FractionMethod::linear},
@@ -213,7 +213,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
               {reader.who(), "subcells", fmt::format("{}", n), "be at most 32", "5 is the thesis's"});
         solids.subcells = static_cast<int>(n);
       }
-    } else if (reader.accept("remap")) {
+    } else if (reader.keyword("remap")) {
       solids.remap_distance = reader.positive("remap");
     } else {
       reader.unknown(reader.word("keyword"), "operator, weighting, coefficient, fraction, remap");
@@ -236,14 +236,14 @@ void read_effect(ArgumentReader& reader, LbmSettings& settings) {
   EffectSettings effects = settings.coupled.effects;
   double smagorinsky = settings.smagorinsky;
   while (!reader.done()) {
-    if (reader.accept("turbulence")) {
+    if (reader.keyword("turbulence")) {
       effects.turbulence = choose<Switch>(reader, "turbulence", kSwitch);
       if (reader.next_is_number()) smagorinsky = reader.positive("Smagorinsky constant");
-    } else if (reader.accept("lubrication")) {
+    } else if (reader.keyword("lubrication")) {
       effects.lubrication = choose<Switch>(reader, "lubrication", kSwitch);
-    } else if (reader.accept("buoyancy")) {
+    } else if (reader.keyword("buoyancy")) {
       effects.buoyancy = choose<Switch>(reader, "buoyancy", kSwitch);
-    } else if (reader.accept("rotation")) {
+    } else if (reader.keyword("rotation")) {
       effects.rotation = choose<Switch>(reader, "rotation", kSwitch);
     } else {
       reader.unknown(reader.word("keyword"), "turbulence, lubrication, buoyancy, rotation");
@@ -259,16 +259,16 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   std::optional<double> virtual_mass = settings.coupled.virtual_mass;
   double largest_mach = settings.largest_mach;
   while (!reader.done()) {
-    if (reader.accept("substeps")) {
+    if (reader.keyword("substeps")) {
       constexpr std::int64_t most = 1000000;
       const std::int64_t n = reader.accept("auto") ? 0 : reader.positive_integer("substeps");
       if (n > most)
         throw_user_error({reader.who(), "substeps", fmt::format("{}", n), fmt::format("be at most {}", most),
                           "`auto` takes as many as the script's `timestep` needs"});
       substeps = static_cast<int>(n);
-    } else if (reader.accept("average_force")) {
+    } else if (reader.keyword("average_force")) {
       average = choose<bool>(reader, "average_force", kYesNo);
-    } else if (reader.accept("virtual_mass")) {
+    } else if (reader.keyword("virtual_mass")) {
       if (reader.accept("auto")) {
         virtual_mass.reset();
       } else {
@@ -277,7 +277,7 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
           throw_user_error({reader.who(), "virtual_mass", fmt::format("{:g}", *virtual_mass), "be >= 0",
                             "0.5 is that of a sphere; `auto` decides"});
       }
-    } else if (reader.accept("max_mach")) {
+    } else if (reader.keyword("max_mach")) {
       largest_mach = reader.positive("max_mach");
     } else {
       reader.unknown(reader.word("keyword"), "substeps, average_force, virtual_mass, max_mach");
@@ -304,6 +304,7 @@ void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
 
 void read_output(ArgumentReader& reader, LbmSettings& settings) {
   OutputRequest output;
+  bool grains_named = false;  // `contacts` brings them along
   output.id = reader.word("ID of the output");
   if (reader.accept("off")) {
     std::erase_if(settings.outputs, [&](const OutputRequest& o) { return o.id == output.id; });
@@ -316,14 +317,16 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
                                                         {"density", lbm::Field::density},
                                                         {"solid_fraction", lbm::Field::solid_fraction}};
   while (!reader.done()) {
-    if (reader.accept("every")) {
+    if (reader.keyword("every")) {
       output.every = reader.positive("every");
-    } else if (reader.accept("file")) {
+    } else if (reader.keyword("file")) {
       output.file = reader.word("file");
     } else {
       (void)reader.accept("fields");
       const std::string word = reader.word("field");
       if (word == "grains" || word == "contacts") {
+        refuse_repeated(reader, word, word == "grains" ? grains_named : output.contacts);
+        grains_named |= word == "grains";
         output.grains = true;
         output.contacts = output.contacts || word == "contacts";
       } else if (const auto field = fields.find(word); field != fields.end()) {

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "lammps.h"
 #include "lbm_settings.h"
 #include "modify.h"
 #include "styles/style_support.h"
+#include "suffuse/common/error.h"
 
 namespace suffuse::coupling {
 
@@ -39,7 +41,17 @@ Monitor::Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, Liggghts
   for (Quantity& quantity : quantities_)
     if (const auto saved = references.find(key(quantity)); quantity.reference && saved != references.end())
       *quantity.reference = saved->second;
+  refuse_repeated_columns();
   open(lmp, continue_after);
+}
+
+void Monitor::refuse_repeated_columns() const {
+  std::set<std::string> names;
+  for (const Quantity& quantity : quantities_)
+    for (const std::string& column : quantity.columns)
+      if (!names.insert(column).second)
+        throw_user_error({"lbm monitor " + request_.id, "column", column + " twice", "be there once",
+                          "drop one of the quantities, or name it with `as`"});
 }
 
 std::string Monitor::key(const Quantity& quantity) const {

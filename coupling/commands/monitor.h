@@ -70,6 +70,7 @@ class Monitor {
 
  private:
   void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);
+  void refuse_repeated_columns() const;
   std::string key(const Quantity& quantity) const;
 
   MonitorRequest request_;

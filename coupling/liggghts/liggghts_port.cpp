@@ -52,11 +52,7 @@ FixHydrodynamicForce* find_force_fix(LAMMPS* lmp) {
 LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
   if (lmp->atom->superquadric_flag != 0)
     throw_user_error({"lbm run", "atom_style", "superquadric", "be spheres", "write `atom_style granular`"});
-  for (int i = 0; i < lmp->modify->nfix; ++i)
-    if (std::string(lmp->modify->fix[i]->style).find("multisphere") == 0)
-      throw_user_error({"lbm run", "fix", lmp->modify->fix[i]->style,
-                        "not be defined: grains are single spheres",
-                        "use `fix nve/sphere` with single spheres"});
+  require_single_spheres(lmp, "lbm run");
   if (find_force_fix(lmp) == nullptr) {
     std::string id = "hydrodynamic_force", group = "all", style = "hydrodynamic/force";
     char* words[] = {id.data(), group.data(), style.data()};

@@ -26,6 +26,7 @@ constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader("fix hydrodynamic/force", narg, arg, 3);
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+  suffuse::require_si_units(lmp, "fix hydrodynamic/force");
   if (atom->radius_flag == 0 || atom->torque_flag == 0)
     throw_user_error({"fix hydrodynamic/force", "atom_style", atom->atom_style, "be spheres",
                       "write `atom_style granular`"});
@@ -70,6 +71,7 @@ void FixHydrodynamicForce::post_create() {
 }
 
 void FixHydrodynamicForce::init() {
+  suffuse::require_single_spheres(lmp, "fix hydrodynamic/force");
   constraints_.clear();
   for (int i = 0; i < modify->nfix; ++i)
     if (suffuse::constrains_forces(modify->fix[i]->style)) constraints_.push_back(modify->fix[i]);

@@ -97,6 +97,19 @@ CASES = [
     (WET + "timestep 0\n" + RUN, ["timestep = 0 s", "> 0"]),
     (WET.replace("units si", "units cgs") + RUN, ["units = cgs", "units si"]),
     (WET + "lbm collision bgk magic 0.2\n", ["magic", "trt"]),
+    (FEW + "lbm fluid density 1000 density 2000\n", ["density = given twice"]),
+    (FEW + "lbm lattice spacing 1e-4 spacing 2e-4 relaxation_time 0.6\n", ["spacing = given twice"]),
+    (WET + "lbm force gravity 0 0 -9.81 gravity 0 0 -1\n", ["gravity = given twice"]),
+    (WET + "lbm solid operator sc1 operator sc2\n", ["operator = given twice"]),
+    (WET + "lbm effect lubrication on lubrication off\n", ["lubrication = given twice"]),
+    (WET + "lbm couple substeps auto substeps 5\n", ["substeps = given twice"]),
+    (WET + "lbm monitor m every 1e-3 every 1e-4 file m.csv bed\n", ["every = given twice"]),
+    (WET + "lbm monitor m every 1e-3 file m.csv bed mass bed\n" + RUN, ["column = bed_height_m twice"]),
+    (WET + "lbm output o every 1e-3 file o.h5 file p.h5\n", ["file = given twice"]),
+    (WET + "lbm output o every 1e-3 file o.h5 grains grains\n", ["grains = given twice"]),
+    (WET + "lbm run until nan\n", ["time = nan", "be a number"]),
+    (WET + "lbm run until -1\n", ["time = -1", "> 0"]),
+    (WET + "lbm run until\n", ["time", "be given"]),
 ]
 
 
