@@ -110,6 +110,24 @@ def check_lost_grains(program, folder):
            f"lost grains: {lines}")
 
 
+def check_mesh_beyond_faces(program, folder):
+    """A plate that reaches out of the periodic faces is pointed out, once; one that ends at them is not."""
+    def plate(low, high):
+        corners = [(low, low), (high, low), (high, high), (low, high)]
+        facets = "".join("facet normal 0 0 1\nouter loop\n" + "".join(f"vertex {corners[k][0]} {corners[k][1]} 5e-4\n" for k in three) +
+                         "endloop\nendfacet\n" for three in ((0, 1, 2), (0, 2, 3)))
+        return f"solid plate\n{facets}endsolid plate\n"
+
+    for name, low, high, notes in (("fits", 0, 4e-3, 0), ("beyond", -1e-3, 5e-3, 1)):
+        (pathlib.Path(folder) / f"{name}.stl").write_text(plate(low, high))
+        screen = program.must_run(
+            HEADER.format(boundary="p p f") + "region box block 0 4e-3 0 4e-3 0 4e-3 units box\ncreate_box 1 box\n" +
+            MATERIAL.format(friction=0.3) + "create_atoms 1 single 1e-3 1e-3 1.2e-3\nset type 1 diameter 1e-3 density 2650\ntimestep 1e-6\n"
+            f"fix plate all mesh/surface file {name}.stl type 1\nfix w all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
+            "run 10\nrun 10\n", folder)
+        expect(screen.count("note: mesh plate reaches out of the periodic faces across x and y") == notes, f"{name}: {screen[-800:]}")
+
+
 def check_variables(program, folder):
     """A -var that the script does not know is refused before anything runs; one that only an included file knows is not."""
     path = pathlib.Path(folder)
@@ -142,6 +160,7 @@ def main():
         code, screen = program.run_file(folder, folder, [], "log.folder", 60)
         expect(code == 1 and "readable script" in screen, f"a folder as script ended with code {code}")
         check_variables(program, folder)
+        check_mesh_beyond_faces(program, folder)
         code, screen = program.run("", folder, name="empty")
         expect(code == 0, f"an empty script ended with code {code}")
     expect(not failures, "\n".join(failures))
