@@ -162,6 +162,29 @@ def check_time_over_restart(program):
     expect(abs(one / two - 1) < 1e-3, f"flow {one} and {two} m/s")
 
 
+def check_plan_of_graded_bed(program):
+    """A plan's error is that of the finest tenth of the surface: fines of two cells make a bed of coarse grains of eight
+    cells err by a fifth, and two lone fine grains do not."""
+    def plan(fines):
+        coarse = [(x, y, z) for x in (1, 3) for y in (1, 3) for z in (1, 2.5, 4)]
+        places = [(0.2 + 0.4 * (n % 10), 0.15 + 0.4 * (n // 10 % 10), 4.8 - 0.4 * (n // 100)) for n in range(fines)]
+        atoms = "".join(f"create_atoms {kind} single {x}e-3 {y}e-3 {z}e-3\n" for kind, all_ in ((1, coarse), (2, places)) for x, y, z in all_)
+        box = wet_box(grains=0).replace("create_box 1 box", "create_box 2 box").replace("peratomtypepair 1", "peratomtypepair 2")
+        for name, value in (("youngsModulus", "7e8"), ("poissonsRatio", "0.3")):
+            box = box.replace(f"{name} peratomtype {value}", f"{name} peratomtype {value} {value}")
+        for name, value in (("coefficientRestitution", "0.7"), ("coefficientFriction", "0.3")):
+            box = box.replace(f"{name} peratomtypepair 2 {value}", f"{name} peratomtypepair 2 {value} {value} {value} {value}")
+        sizes = "set type 1 diameter 1e-3 density 2650\nset type 2 diameter 0.25e-3 density 2650\n"
+        with scratch() as folder:
+            return program.must_run(box + atoms + sizes + WATER + "lbm plan 0.1\n", folder)
+
+    screen = plan(200)
+    expect("about 21 % (worst packing tried: 37 %), by the 2 cells" in screen, f"fines of two cells: {screen[-1500:]}")
+    expect("lbm plan: note: the smallest grains have 2 cells per diameter" in screen, f"no note: {screen[-1500:]}")
+    # 12 coarse grains of 1 mm2 pi each; two of a sixteenth: a hundredth of the surface. Beyond eight cells as at eight.
+    expect("about 1 % (worst packing tried: 2 %), by the 8 cells" in plan(2), f"two lone grains: {plan(2)[-1500:]}")
+
+
 def check_steady_and_grains(program):
     """Until steady; water without grains; grains inserted and deleted between runs leave no solids behind."""
     empty = wet_box(grains=0) + WATER + "lbm boundary zlo pressure 0.1 zhi pressure 0\n" + \
@@ -192,6 +215,7 @@ def main():
     check_lost_flow(program)
     check_restart(program)
     check_time_over_restart(program)
+    check_plan_of_graded_bed(program)
     check_steady_and_grains(program)
     print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
 
