@@ -22,6 +22,12 @@ void wait_for_disk(const std::string& path, const std::string& who) {
     throw_user_error({who, "file", path, "take what is written", problem.message() + "; is the disk full?"});
 }
 
+std::string one_name_of(const std::string& path) {
+  std::error_code problem;
+  const std::filesystem::path name = std::filesystem::weakly_canonical(path, problem);
+  return problem ? path : name.string();
+}
+
 void require_writable(const std::string& path, const std::string& who) {
   std::error_code problem;
   const bool existed = std::filesystem::exists(path, problem);

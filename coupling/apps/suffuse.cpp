@@ -197,6 +197,10 @@ int run_script(int argc, char** argv, int rank) {
     MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   } catch (const std::exception& failure) {
+    if (const std::string refusal = suffuse::refusal_of_the_machine(failure); !refusal.empty()) {
+      fmt::print(stderr, "suffuse: error: {}\n", refusal);
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    }
     fmt::print(stderr, "suffuse: internal error on rank {}: {}\n", rank, failure.what());
     MPI_Abort(MPI_COMM_WORLD, 2);
     return 2;

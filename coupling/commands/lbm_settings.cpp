@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "lammps.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::coupling {
 
@@ -368,15 +369,15 @@ std::vector<std::string> files_of(const CheckpointRequest& checkpoint) {
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files) {
   std::map<std::string, std::string> taken;
-  const auto key = [](const std::string& file) { return std::filesystem::weakly_canonical(file).string(); };
   for (const MonitorRequest& monitor : settings.monitors)
-    taken[key(monitor.file)] = "lbm monitor " + monitor.id;
+    taken[one_name_of(monitor.file)] = "lbm monitor " + monitor.id;
   for (const OutputRequest& output : settings.outputs)
-    for (const std::string& file : files_of(output)) taken[key(file)] = "lbm output " + output.id;
+    for (const std::string& file : files_of(output)) taken[one_name_of(file)] = "lbm output " + output.id;
   if (settings.checkpoint)
-    for (const std::string& file : files_of(*settings.checkpoint)) taken[key(file)] = "lbm restart write";
+    for (const std::string& file : files_of(*settings.checkpoint))
+      taken[one_name_of(file)] = "lbm restart write";
   for (const std::string& file : files)
-    if (const auto other = taken.find(key(file)); other != taken.end())
+    if (const auto other = taken.find(one_name_of(file)); other != taken.end())
       throw_user_error({reader.who(), "file", file, fmt::format("not be that of `{}`", other->second),
                         "give each its own file"});
 }

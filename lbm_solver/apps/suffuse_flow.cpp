@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/common/time_series_file.h"
@@ -298,9 +301,20 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     status = rank == 0 ? app.exit(error) : error.get_exit_code();
     if (status != 0) status = 1;
-  } catch (const std::exception& error) {
+  } catch (const UserError& error) {  // on all ranks alike
     if (rank == 0) fmt::print(stderr, "\nsuffuse-flow: {}\n", error.what());
     status = 1;
+  } catch (const std::exception& failure) {  // maybe on this rank alone
+    const std::string refusal = refusal_of_the_machine(failure);
+    fmt::print(
+        stderr, "\nsuffuse-flow: {}\n",
+        refusal.empty() ? fmt::format("internal error on rank {}: {}", rank, failure.what()) : refusal);
+    MPI_Abort(MPI_COMM_WORLD, refusal.empty() ? 2 : 1);
+  }
+  if (Hdf5File::left_open()) {
+    std::fflush(nullptr);
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::_Exit(status);
   }
   MPI_Finalize();
   return status;

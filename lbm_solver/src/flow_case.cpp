@@ -13,6 +13,7 @@
 #include <set>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::lbm {
@@ -226,7 +227,7 @@ void refuse_shared_files(const std::string& file, const FlowCase& flow) {
   if (flow.output) names.insert(names.end(), {flow.output->path, xdmf_beside(flow.output->path)});
   std::set<std::string> taken;
   for (const std::string& name : names)
-    if (!name.empty() && !taken.insert(std::filesystem::weakly_canonical(name).string()).second)
+    if (!name.empty() && !taken.insert(one_name_of(name)).second)
       throw_user_error({file, "file", name, "be written by one table only", "give each its own file"});
 }
 

@@ -11,6 +11,10 @@ namespace suffuse {
 /// that `who` begins where the disk does not take it.
 void wait_for_disk(const std::string& path, const std::string& who);
 
+/// One name for all that lead to a file: its absolute path, or `path` as it stands where that cannot be found
+/// out. Whether it can be written is another question.
+std::string one_name_of(const std::string& path);
+
 /// A UserError that `who` begins where the file cannot be written. Leaves none behind, and one that is there
 /// as it is.
 void require_writable(const std::string& path, const std::string& who);
