@@ -13,11 +13,14 @@
 #include "modify.h"
 #include "neighbor.h"
 #include "pair.h"
+#include "read_data.h"
 #include "replacements/fix_contact_history_vector.h"
 #include "replacements/fix_nve_sphere_vector.h"
 #include "replacements/neighbor_by_size.h"
 #include "replacements/pair_gran_vector.h"
+#include "replicate.h"
 #include "run.h"
+#include "scene_checks.h"
 #include "signal_handling.h"
 #include "styles/all_styles.h"
 #include "styles/early_stop.h"
@@ -69,8 +72,21 @@ void make_command(LAMMPS* lmp, int narg, char** arg) {
 /// `run`, able to end early: see early_stop.h. A real interrupt still ends the script.
 void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
   suffuse::EarlyStop::requested = false;
+  suffuse::tell_meshes_beyond_periodic_faces(lmp);
+  const suffuse::GrainCensus census(lmp);
   Run(lmp).command(narg, arg);
   if (suffuse::EarlyStop::requested) SignalHandler::request_quit = false;
+  census.tell_lost();
+}
+
+void read_data(LAMMPS* lmp, int narg, char** arg) {
+  ReadData(lmp).command(narg, arg);
+  suffuse::require_unique_grains(lmp, "read_data");
+}
+
+void replicate(LAMMPS* lmp, int narg, char** arg) {
+  Replicate(lmp).command(narg, arg);
+  suffuse::require_unique_grains(lmp, "replicate");
 }
 
 const std::map<std::string, ComputeCreator>& our_computes() {
@@ -143,6 +159,8 @@ void register_styles(LAMMPS* lmp, GrainLoop loop) {
   for (const auto& [name, creator] : our_commands()) commands[name] = creator;
   for (const auto& [name, creator] : added_commands) commands[name] = creator;
   commands["run"] = &run_until_stopped;
+  commands["read_data"] = &read_data;
+  commands["replicate"] = &replicate;
   EarlyStop::supported = true;
 }
 

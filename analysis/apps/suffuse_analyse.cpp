@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <exception>
+#include <string>
 
 #include "commands/constriction_command.h"
 #include "commands/contacts_command.h"
@@ -21,6 +24,29 @@ namespace {
 constexpr const char* kDescription =
     "Soil mechanics at the grain scale, after a run: what dumps and gradings say. SI units; compression is "
     "positive.\n`suffuse-analyse SUBCOMMAND --help` tells the options of one.";
+
+/// What CLI11 takes for numbers without a word: nothing at all (0), nan, inf, hexadecimal digits, -1 as a
+/// huge count.
+std::string refusal_of_number(const std::string& text, bool count) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const char* begin = text.starts_with('+') ? text.data() + 1 : text.data();
+  const auto [at, problem] = std::from_chars(begin, end, value);
+  if (text.empty() || problem != std::errc() || at != end || !std::isfinite(value))
+    return fmt::format("'{}' must be a finite number", text);
+  return count && value < 0 ? fmt::format("{} must be >= 0", text) : "";
+}
+
+/// Every option that takes numbers takes finite ones.
+void require_numbers(CLI::App& app) {
+  for (CLI::App* command : app.get_subcommands({})) require_numbers(*command);
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    const bool count = type.starts_with("UINT");
+    if (count || type.starts_with("FLOAT") || type.starts_with("INT"))
+      option->check([count](const std::string& text) { return refusal_of_number(text, count); }, "");
+  }
+}
 
 int report(const char* what) {
   std::fflush(stdout);
@@ -44,6 +70,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_reproduce(app);
   suffuse::analysis::add_shear(app);
   suffuse::analysis::add_verdict(app);
+  require_numbers(app);
   try {
     app.parse(argc, argv);  // the chosen subcommand runs in here
     suffuse::require_printed_output();

@@ -173,18 +173,20 @@ void add_constriction(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       kWho, "Constriction sizes of a grading or of an actual packing, and the criteria on them");
   add_grading_options(*command, *options);
-  command->add_option("--packing", options->packing,
-                      "dump of grains with x y z radius: constrictions of the packing itself");
-  command->add_option("--step", options->step, "its step; the last one if not given");
+  CLI::Option* packing = command->add_option(
+      "--packing", options->packing, "dump of grains with x y z radius: constrictions of the packing itself");
+  command->add_option("--step", options->step, "its step; the last one if not given")->needs(packing);
   command
       ->add_option("--coarser-than", options->coarser_than,
                    "leave out grains below this diameter (m): the skeleton alone")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(packing);
   command
       ->add_option(
           "--merge-overlap", options->merge_overlap,
           "void spheres are one pore if they overlap by more than this share of the smaller diameter")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(packing);
   options->outputs.add(*command, "--output", options->output, "CSV file with the criteria");
   options->outputs.add(*command, "--distribution", options->distribution, "CSV file with the distributions");
   options->outputs.add(*command, "--prediction", options->prediction,

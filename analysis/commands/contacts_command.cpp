@@ -25,7 +25,7 @@ struct Options {
   SplitOption split;
   OutputOptions outputs;
   std::string output, json, force_pdf, strong = "mean", axis = "z";
-  double tolerance = -1;
+  std::optional<double> tolerance;
   MeasureSettings measures;
 };
 
@@ -45,9 +45,11 @@ void check(Options& options) {
   MeasureSettings& measures = options.measures;
   read_strong(options.strong, measures);
   measures.axis = axis_of(options.axis, kWho);
-  if (options.tolerance >= 1)
-    throw_user_error({kWho, "--sliding-tolerance", fmt::format("{}", options.tolerance), "be < 1", ""});
-  if (options.tolerance >= 0) measures.sliding_tolerance = options.tolerance;
+  if (const auto& given = options.tolerance) {
+    if (!(*given >= 0 && *given < 1))
+      throw_user_error({kWho, "--sliding-tolerance", fmt::format("{}", *given), "be >= 0 and < 1", ""});
+    measures.sliding_tolerance = *given;
+  }
   const auto in_range = [](bool fine, const char* option, double value, const char* rule) {
     if (!fine) throw_user_error({kWho, option, fmt::format("{}", value), rule, ""});
   };

@@ -333,7 +333,7 @@ void add_fluidisation(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--porosity", options->porosity, "of the bed at rest, instead of the first sample's");
   command->add_option("--height", options->height, "of the bed at rest, m, instead of the first sample's");
-  command->add_option(
+  CLI::Option* dumps = command->add_option(
       "--dumps", options->layers.files,
       "dumps of grains and contacts of the same run, patterns too: the contacts of its layers");
   options->outputs.add(*command, "--measures", options->layers.measures,
@@ -341,9 +341,11 @@ void add_fluidisation(CLI::App& app) {
   options->outputs.add(*command, "--distributions", options->layers.distributions,
                        "CSV file: distributions of contacts a grain and of S_i (needs --dumps)");
   command->add_option("--bounds", options->layers.bounds, "LOW HIGH of the layers, m, for the dumps")
-      ->expected(2);
+      ->expected(2)
+      ->needs(dumps);
   command->add_option("--friction", options->layers.friction, "of the contacts in the dumps")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(dumps);
   command->add_option("--grain-density", options->grain_density, "kg/m3")->capture_default_str();
   command->add_option("--fluid-density", options->fluid.density, "kg/m3")->capture_default_str();
   command->add_option("--viscosity", options->fluid.kinematic_viscosity, "kinematic, m2/s")

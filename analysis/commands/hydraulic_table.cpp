@@ -17,11 +17,10 @@ void HydraulicInput::add_to(CLI::App& command) {
   command.add_option("--gravity", fluid.gravity, "m/s2")->capture_default_str();
 }
 
-void check_hydraulic(const HydraulicInput& options, const std::string& who) {
+void check_seepage_options(const HydraulicInput& options, const std::string& who) {
   const auto must = [&](bool fine, const char* option, double value, const char* rule) {
     if (!fine) throw_user_error({who, option, fmt::format("{:g}", value), rule, ""});
   };
-  must(options.porosity > 0 && options.porosity < 1, "--porosity", options.porosity, "be between 0 and 1");
   must(options.fluid.density > 0, "--fluid-density", options.fluid.density, "be > 0");
   must(options.grain_density > options.fluid.density, "--grain-density", options.grain_density,
        "be above the fluid's");
@@ -33,6 +32,12 @@ void check_hydraulic(const HydraulicInput& options, const std::string& who) {
   if (options.thickness) must(*options.thickness > 0, "--thickness", *options.thickness, "be > 0");
   if (options.top_stress.has_value() != options.thickness.has_value())
     throw_user_error({who, "--top-stress, --thickness", "one alone", "be given together", ""});
+}
+
+void check_hydraulic(const HydraulicInput& options, const std::string& who) {
+  if (!(options.porosity > 0 && options.porosity < 1))
+    throw_user_error({who, "--porosity", fmt::format("{:g}", options.porosity), "be between 0 and 1", ""});
+  check_seepage_options(options, who);
 }
 
 std::vector<HydraulicRow> hydraulic_rows(const HydraulicInput& options,

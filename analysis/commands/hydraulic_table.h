@@ -29,6 +29,9 @@ struct HydraulicInput {
 };
 
 /// Throws UserError on values that make no sense.
+/// The same of all but the porosity.
+void check_seepage_options(const HydraulicInput& input, const std::string& who);
+
 void check_hydraulic(const HydraulicInput& input, const std::string& who);
 
 struct HydraulicRow {

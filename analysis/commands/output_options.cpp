@@ -19,9 +19,13 @@ void refuse_if_there(const std::string& who, const std::string& option, const st
 
 }  // namespace
 
+void OutputOptions::add_overwrite(CLI::App& command) {
+  command.add_flag("--overwrite", overwrite_, "replace files of earlier results");
+}
+
 CLI::Option* OutputOptions::add(CLI::App& command, const std::string& name, std::string& file,
                                 const std::string& description) {
-  if (files_.empty()) command.add_flag("--overwrite", overwrite_, "replace files of earlier results");
+  if (files_.empty()) add_overwrite(command);
   files_.emplace_back(name, &file);
   return command.add_option(name, file, description);
 }

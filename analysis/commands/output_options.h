@@ -14,6 +14,8 @@ class OutputOptions {
   /// Adds an option for a file; with the first one also --overwrite.
   CLI::Option* add(CLI::App& command, const std::string& name, std::string& file,
                    const std::string& description);
+  /// --overwrite for a subcommand whose files follow from other options.
+  void add_overwrite(CLI::App& command);
   /// Throws UserError for the first file that is there, before anything is computed. `more`: files that
   /// follow from other options.
   void require_new(const std::string& who, const std::vector<std::string>& more = {}) const;

@@ -16,24 +16,31 @@ void ReadOptions::add_to(CLI::App& command) {
 
 void ReadOptions::add_to(CLI::App& command, const std::string& files_option) {
   settings.who = command.get_name();
-  command.add_option(files_option, files,
-                     "LIGGGHTS dumps of the grains (dump custom) and of the contacts (dump local of compute "
-                     "pair/gran/local), text or gzip, in any order, patterns too; or one of our HDF5 files");
-  command.add_option(
-      "--pair-values", pair_values,
-      "words of the script's compute pair/gran/local, if not guessed rightly: \"pos id force …\"");
+  CLI::Option* sample = command.add_option(
+      files_option, files,
+      "LIGGGHTS dumps of the grains (dump custom) and of the contacts (dump local of compute "
+      "pair/gran/local), text or gzip, in any order, patterns too; or one of our HDF5 files");
+  command
+      .add_option("--pair-values", pair_values,
+                  "words of the script's compute pair/gran/local, if not guessed rightly: \"pos id force …\"")
+      ->needs(sample);
   command
       .add_option("--column", renamed, "OURS=THEIRS: the column of a quantity, e.g. radius=c_r or id1=c_p[7]")
-      ->take_all();
+      ->take_all()
+      ->needs(sample);
   command.add_option("--friction", settings.friction, "coefficient of friction of the contacts")
-      ->capture_default_str();
-  command.add_option("--volume", volume, "volume of the sample, m³, where it is not the box");
-  command.add_flag("--bed", settings.bed,
-                   "the sample is the upright box that just holds the grains, not the simulation box");
+      ->capture_default_str()
+      ->needs(sample);
+  command.add_option("--volume", volume, "volume of the sample, m³, where it is not the box")->needs(sample);
+  command
+      .add_flag("--bed", settings.bed,
+                "the sample is the upright box that just holds the grains, not the simulation box")
+      ->needs(sample);
   command
       .add_option("--region", region,
                   "the sample lies between these bounds, m: XLO XHI YLO YHI ZLO ZHI; only its grains count")
-      ->expected(6);
+      ->expected(6)
+      ->needs(sample);
 }
 
 std::unique_ptr<SnapshotSeries> ReadOptions::open() {
@@ -46,8 +53,9 @@ std::unique_ptr<SnapshotSeries> ReadOptions::open() {
   for (const std::string_view word : words_of(pair_values)) settings.contact_words.emplace_back(word);
   if (!(settings.friction >= 0))
     throw_user_error({settings.who, "--friction", fmt::format("{}", settings.friction), "be >= 0", ""});
-  if (volume < 0) throw_user_error({settings.who, "--volume", fmt::format("{}", volume), "be > 0", "in m³"});
-  if (volume > 0) settings.volume = volume;
+  if (volume && !(*volume > 0))
+    throw_user_error({settings.who, "--volume", fmt::format("{}", *volume), "be > 0", "in m³"});
+  settings.volume = volume;
   if (!region.empty()) {
     settings.region =
         micromechanics::Box{{region[0], region[2], region[4]}, {region[1], region[3], region[5]}};
@@ -55,7 +63,7 @@ std::unique_ptr<SnapshotSeries> ReadOptions::open() {
       throw_user_error({settings.who, "--region", fmt::format("{}", fmt::join(region, " ")),
                         "rise from low to high along x, y and z", ""});
   }
-  if (int{volume > 0} + int{settings.bed} + int{!region.empty()} > 1)
+  if (int{volume.has_value()} + int{settings.bed} + int{!region.empty()} > 1)
     throw_user_error(
         {settings.who, "sample", "more than one", "be given by one of --volume, --bed, --region", ""});
   return open_series(files, settings);

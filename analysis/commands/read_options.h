@@ -14,7 +14,7 @@ struct ReadOptions {
   ReadSettings settings;
   std::vector<std::string> renamed;  ///< "OURS=THEIRS"
   std::string pair_values;
-  double volume = 0;
+  std::optional<double> volume;
   std::vector<double> region;  ///< nothing, or low and high along x, y, z, m
 
   void add_to(CLI::App& command);

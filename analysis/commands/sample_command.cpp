@@ -1,4 +1,5 @@
 #include "commands/sample_command.h"
+#include "commands/output_options.h"
 
 #include <fmt/format.h>
 
@@ -31,6 +32,7 @@ struct Options {
   double density = 2650;
   std::optional<double> box_edge;
   bool quiet = false, variables_only = false;
+  OutputOptions outputs;
 };
 
 /// `--grains`: a number, or `thesis` and none, as many as --coarse takes but for the thesis's samples.
@@ -43,7 +45,13 @@ double grains_wanted(const Options& options, const std::optional<NamedGrading>& 
   return std::round(grains);
 }
 
+/// m: beyond them it is another length unit.
+constexpr double kSmallestGrain = 1e-9, kLargestGrain = 1e3;
+
 void check(const Options& options) {
+  if (std::filesystem::path(options.output).filename().empty())
+    throw_user_error({kWho, "--output", options.output.empty() ? "nothing" : options.output,
+                      "be the beginning of files' names", "for example samples/b20"});
   const auto must = [](bool fine, const char* option, double value, const char* rule,
                        const char* remedy = "") {
     if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, remedy});
@@ -55,7 +63,7 @@ void check(const Options& options) {
          *options.solid_fraction, "be between 0 and 0.74");
   if (options.box_edge) must(*options.box_edge > 0, "--box-edge", *options.box_edge, "be > 0", "in m");
   must(options.density > 0, "--density", options.density, "be > 0");
-  must(options.coarse >= 1, "--coarse", options.coarse, "be >= 1");
+  must(options.coarse >= 1 && options.coarse <= 1e9, "--coarse", options.coarse, "be 1 to 1e9");
   must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
   must(options.affordable >= 1, "--affordable", options.affordable, "be >= 1");
   if (options.classes < 2 || options.classes > 200)
@@ -117,6 +125,11 @@ Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
   plan.for_coarse = grains_with_coarse(plan.classes, options.coarse, plan.split.diameter);
   const double wanted = grains_wanted(options, named, plan.for_coarse);
   for (GradingClass& one : plan.classes) one.diameter *= options.scale;
+  if (plan.classes.front().diameter < kSmallestGrain || plan.classes.back().diameter > kLargestGrain)
+    throw_user_error({kWho, "--scale", fmt::format("{:g}", options.scale),
+                      fmt::format("leave grains of {:g} to {:g} m, not of {:.3g} to {:.3g} m", kSmallestGrain,
+                                  kLargestGrain, plan.classes.front().diameter, plan.classes.back().diameter),
+                      ""});
   plan.split.diameter *= options.scale;
   plan.sample = grain_sample(plan.classes, wanted, plan.split.diameter);
   plan.box_edge = options.solid_fraction
@@ -188,8 +201,17 @@ std::string screen_text(const Options& options, const Plan& plan) {
   return text;
 }
 
+/// The files that a run writes: STEM and their ends.
+std::vector<std::string> files_of(const Options& options) {
+  std::vector<std::string> files{options.output + ".inc"};
+  if (!options.variables_only)
+    for (const char* end : {"_templates.inc", ".csv", ".data"}) files.push_back(options.output + end);
+  return files;
+}
+
 void run(const Options& options) {
   check(options);
+  options.outputs.require_new(kWho, files_of(options));
   const std::optional<NamedGrading> named =
       std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kWho);
   const Plan plan = plan_of(options, named);
@@ -210,7 +232,15 @@ void run(const Options& options) {
   if (options.solid_fraction) made += fmt::format(" --solid-fraction {:g}", *options.solid_fraction);
   script.title = script.name + ": written by " + made;
   const std::string who = "sample --output";
-  if (options.box_edge) script.box_edge = *options.box_edge;
+  if (options.box_edge) {
+    constexpr double least_share = 1e-6;
+    if (!(plan.sample.solids / std::pow(*options.box_edge, 3) > least_share))
+      throw_user_error({kWho, "--box-edge", fmt::format("{:g} m", *options.box_edge),
+                        fmt::format("be below {:.3g} m: the grains fill a millionth of such a cube",
+                                    std::cbrt(plan.sample.solids / least_share)),
+                        ""});
+    script.box_edge = *options.box_edge;
+  }
   SafeFile variables(options.output + ".inc", who);
   write_sample_variables(variables, script);
   if (options.variables_only) {
@@ -262,6 +292,7 @@ void add_sample(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--density", options->density, "of the grains, kg/m3")->capture_default_str();
   command->add_option("--box-edge", options->box_edge, "of the cube that the grains are placed in, m");
+  options->outputs.add_overwrite(*command);
   command->add_flag("--variables-only", options->variables_only, "write STEM.inc only");
   command->add_flag("--quiet", options->quiet, "notes and warnings only");
   command->callback([options] { run(*options); });

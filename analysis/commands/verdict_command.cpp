@@ -77,6 +77,7 @@ void check(const Options& options) {
   share(options.constriction.split, "--cut", true);
   if (options.alpha && !(*options.alpha >= 0))
     throw_user_error({kWho, "--alpha", fmt::format("{:g}", *options.alpha), "be >= 0", ""});
+  check_seepage_options(options.hydraulic, kWho);
   if (options.no_figures && !options.figures.empty())
     throw_user_error({kWho, "--figures", options.figures, "not stand beside --no-figures", ""});
   if (!options.figures.empty() && files::exists(options.figures) && !files::is_directory(options.figures))

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 
 #include "suffuse/analysis/csv_file.h"
 #include "suffuse/analysis/decimal_mark.h"
 #include "suffuse/analysis/sieve_columns.h"
+#include "suffuse/analysis/text_input.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::analysis {
@@ -190,6 +192,10 @@ micromechanics::Grading read_grading(const std::string& path, const std::string&
 }
 
 bool is_dump(const std::string& path, const std::string& who) {
+  require_an_end(path, who);
+  std::error_code ignored;
+  if (std::filesystem::is_fifo(path, ignored))
+    throw_user_error({who, "file", path, "be a file, not a pipe", "it is read more than once"});
   std::ifstream file(path);
   if (!file) throw_user_error({who, "file", path, "be readable", ""});
   std::string first;

@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -71,17 +72,22 @@ void check(std::span<const Sphere> grains, const SphereBox& box) {
 class Network {
  public:
   Network(std::span<const Sphere> grains, const SphereBox& box, double margin) : box_(box) {
-    for (const Sphere& grain : grains) largest_radius_ = std::max(largest_radius_, grain.radius);
+    for (const Sphere& grain : grains) {
+      largest_radius_ = std::max(largest_radius_, grain.radius);
+      low_ = low_.cwiseMin(grain.centre);
+      high_ = high_.cwiseMax(grain.centre);
+    }
     add_images(grains, margin);
     grid_.emplace(grains_);
     triangulate();
     void_spheres();
   }
 
+  /// Of the void spheres between grains: those of flat tetrahedra on a free surface stand far outside of it.
   double largest_void_radius() const {
     double largest = 0;
     for (const VoidSphere& sphere : spheres_)
-      if (counted(sphere.centre)) largest = std::max(largest, sphere.radius);
+      if (counted(sphere.centre) && between_grains(sphere.centre)) largest = std::max(largest, sphere.radius);
     return largest;
   }
 
@@ -92,6 +98,7 @@ class Network {
   void triangulate();
   void void_spheres();
   bool counted(const Vec3& point) const;
+  bool between_grains(const Vec3& point) const;
   Vec3 wrapped(const Vec3& point) const;
   Vec3 middle_of(std::size_t cell) const;
   bool near_period(const Vec3& point) const;
@@ -103,6 +110,7 @@ class Network {
   SphereBox box_;
   std::vector<Sphere> grains_;  ///< with images
   double largest_radius_ = 0;
+  Vec3 low_ = Vec3::Constant(std::numeric_limits<double>::max()), high_ = -low_;  ///< of the centres
   std::optional<SphereGrid> grid_;
   Triangulation triangulation_;
   std::vector<std::vector<std::size_t>> beside_;  ///< neighbours of each grain in the triangulation
@@ -176,6 +184,15 @@ bool Network::counted(const Vec3& point) const {
     const double from_low = point[axis] - box_.low[axis] - kOffset[axis] * length[axis];
     if (from_low < 0 || from_low >= length[axis]) return false;
   }
+  return true;
+}
+
+/// Along directions that are not periodic, not beyond the outermost centres.
+bool Network::between_grains(const Vec3& point) const {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!box_.periodic[static_cast<std::size_t>(axis)] &&
+        (point[axis] < low_[axis] || point[axis] > high_[axis]))
+      return false;
   return true;
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <set>
 
-#include "suffuse/analysis/script_variables.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/script_variables.h"
 
 namespace suffuse::analysis {
 namespace {

@@ -11,12 +11,12 @@
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/figure_script.h"
 #include "suffuse/analysis/project_files.h"
-#include "suffuse/analysis/script_variables.h"
 #include "suffuse/analysis/shell_word.h"
 #include "suffuse/analysis/timed_process.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/script_variables.h"
 #include "suffuse/common/signal_watch.h"
 
 namespace suffuse::analysis {

@@ -16,6 +16,12 @@ constexpr std::size_t kBlock = std::size_t{1} << 20;
 
 }  // namespace
 
+void require_an_end(const std::string& path, const std::string& who) {
+  std::error_code ignored;
+  if (std::filesystem::is_character_file(path, ignored) || std::filesystem::is_block_file(path, ignored))
+    throw_user_error({who, "file", path, "be a file", "this is a device, which may have no end"});
+}
+
 /// Plain files are read directly, gzip ones through zlib.
 struct TextInput::Source {
   int descriptor = -1;
@@ -37,6 +43,7 @@ TextInput::TextInput(std::string path, std::string who)
   if (source_->descriptor < 0 || std::filesystem::is_directory(path_, ignored))
     throw_user_error({who_, "file", path_, "be readable",
                       source_->descriptor < 0 ? std::strerror(errno) : "this is a folder"});
+  require_an_end(path_, who_);
   const auto size = std::filesystem::file_size(path_, ignored);
   bytes_ = ignored ? 0 : static_cast<std::int64_t>(size);
   unsigned char magic[2] = {};

@@ -11,9 +11,23 @@
 
 namespace suffuse {
 
+namespace {
+
+/// What was given, on one line of a screen whatever it was: no control characters, and not the whole of a
+/// long text.
+std::string shown(const std::string& text) {
+  constexpr std::size_t most = 200;
+  std::string line = text.substr(0, most);
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text.size() > most ? line + "..." : line;
+}
+
+}  // namespace
+
 void throw_user_error(const InputProblem& problem) {
   std::string line =
-      fmt::format("{}: {} = {}, must {}", problem.who, problem.what, problem.value, problem.rule);
+      fmt::format("{}: {} = {}, must {}", problem.who, problem.what, shown(problem.value), problem.rule);
   if (!problem.remedy.empty()) line += "; " + problem.remedy;
   throw UserError(line);
 }

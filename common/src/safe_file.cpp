@@ -22,17 +22,46 @@ void wait_for_disk(const std::string& path, const std::string& who) {
     throw_user_error({who, "file", path, "take what is written", problem.message() + "; is the disk full?"});
 }
 
+std::string one_name_of(const std::string& path) {
+  std::error_code problem;
+  const std::filesystem::path name = std::filesystem::weakly_canonical(path, problem);
+  return problem ? path : name.string();
+}
+
+void require_writable(const std::string& path, const std::string& who) {
+  std::error_code problem;
+  const bool existed = std::filesystem::exists(path, problem);
+  errno = 0;
+  if (!std::ofstream(path, std::ios::app))
+    throw_user_error(
+        {who, "file", path, "be writable", fmt::format("check its folder ({})", std::strerror(errno))});
+  if (!existed) std::filesystem::remove(path, problem);
+}
+
+void require_replaceable(const std::string& path, const std::string& who) {
+  std::error_code problem;
+  const std::filesystem::file_status status = std::filesystem::status(path, problem);
+  if (status.type() == std::filesystem::file_type::none)
+    throw_user_error({who, "file", path, "be a name that can be looked up", problem.message()});
+  if (std::filesystem::is_directory(status))
+    throw_user_error({who, "file", path, "be a file", "this is a folder; add a name"});
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw_user_error({who, "file", path, "be a regular file", "a device or a pipe would be replaced by it"});
+}
+
+std::optional<std::string> keep_earlier(const std::string& path, const std::string& who) {
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(path, problem)) return std::nullopt;
+  const std::filesystem::path file = std::filesystem::canonical(path);
+  const std::string earlier = file.string() + ".before";
+  std::filesystem::rename(file, earlier, problem);
+  if (problem) throw_user_error({who, "file", path, "be free to become " + earlier, problem.message()});
+  return path + ".before";
+}
+
 SafeFile::SafeFile(std::string path, std::string who)
     : path_(std::move(path)), part_(path_ + ".part"), who_(std::move(who)) {
-  std::error_code problem;
-  const std::filesystem::file_status status = std::filesystem::status(path_, problem);
-  if (status.type() == std::filesystem::file_type::none)
-    throw_user_error({who_, "file", path_, "be a name that can be looked up", problem.message()});
-  if (std::filesystem::is_directory(status))
-    throw_user_error({who_, "file", path_, "be a file", "this is a folder; add a name"});
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw_user_error(
-        {who_, "file", path_, "be a regular file", "a device or a pipe would be replaced by it"});
+  require_replaceable(path_, who_);
   errno = 0;
   stream_.open(part_, std::ios::binary | std::ios::trunc);
   if (!stream_)

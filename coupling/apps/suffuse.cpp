@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <string>
 #include <vector>
@@ -18,8 +19,10 @@
 #include "input.h"
 #include "lammps.h"
 #include "register_styles.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/script_variables.h"
 
 /// LIGGGHTS ends by this on its own errors, and what it said would be lost where screen and log are files
 /// that have not been flushed yet.
@@ -78,6 +81,23 @@ const char* script_name(int argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i)
     if (std::strcmp(argv[i], "-in") == 0 || std::strcmp(argv[i], "-i") == 0) return argv[i + 1];
   return nullptr;
+}
+
+/// Words of `-var NAME VALUE ...`. A name that stands nowhere in the script, most likely misspelt, would
+/// change nothing, and so would a second value.
+void require_known_variables(int argc, char** argv, const char* script) {
+  std::map<std::string, std::string> given;
+  for (int i = 1; i + 2 < argc; ++i) {
+    if (std::strcmp(argv[i], "-var") != 0 && std::strcmp(argv[i], "-v") != 0) continue;
+    const auto [first, is_new] = given.emplace(argv[i + 1], argv[i + 2]);
+    if (!is_new && first->second != argv[i + 2])
+      fmt::print(stderr, "suffuse: note: -var {} is given twice: {} counts, {} does not\n", first->first,
+                 first->second, argv[i + 2]);
+    i += 2;
+  }
+  if (script == nullptr || given.empty()) return;
+  const suffuse::ScriptVariables variables(script, "suffuse", given);
+  for (const auto& [name, value] : given) variables.require_known(name, "suffuse -var");
 }
 
 /// Lets a script find files beside it, and the programs beside this one: ${script_folder} is the folder of
@@ -150,6 +170,8 @@ int run_script(int argc, char** argv, int rank) {
   LAMMPS_NS::LAMMPS* lmp = nullptr;
   try {
     require_a_readable_script(argc, argv);
+    suffuse::on_first_rank("suffuse", MPI_COMM_WORLD,
+                           [&] { require_known_variables(argc, argv, script_name(argc, argv)); });
     std::vector<char*> arguments = with_a_real_screen(argc, argv);
     const suffuse::GrainLoop loop = take_grain_loop(arguments);
     add_folders(arguments, script_name(argc, argv));
@@ -175,6 +197,10 @@ int run_script(int argc, char** argv, int rank) {
     MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   } catch (const std::exception& failure) {
+    if (const std::string refusal = suffuse::refusal_of_the_machine(failure); !refusal.empty()) {
+      fmt::print(stderr, "suffuse: error: {}\n", refusal);
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    }
     fmt::print(stderr, "suffuse: internal error on rank {}: {}\n", rank, failure.what());
     MPI_Abort(MPI_COMM_WORLD, 2);
     return 2;

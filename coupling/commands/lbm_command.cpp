@@ -331,6 +331,7 @@ void LbmCommand::plan(ArgumentReader& reader) {
 void LbmCommand::run(ArgumentReader& reader) {
   require_lattice(reader.who());
   RunRequest request;
+  const bool until = reader.accept("until");
   request.time = reader.positive("time");
   if (reader.accept("until")) {
     if (!reader.accept("steady")) reader.unknown(reader.word("condition"), "steady");
@@ -350,6 +351,15 @@ void LbmCommand::run(ArgumentReader& reader) {
     if (new_walls && lmp_->modify->find_fix(kLubricationFix) >= 0) {  // films at planes
       lmp_->modify->delete_fix(kLubricationFix);
       add_lubrication(*simulation_);
+    }
+  }
+  if (until) {
+    request.time -= simulation_->time_si();
+    if (request.time < 0.5 * simulation_->units().time_step()) {
+      port_->set_fluid_time(simulation_->time_si());
+      tell(lmp_, fmt::format("lbm run: the fluid is at {:.6g} s already: nothing to run\n",
+                             simulation_->time_si()));
+      return;
     }
   }
   warn_about_held_grains();

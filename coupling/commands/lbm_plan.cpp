@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "comm.h"
 #include "lammps.h"
@@ -84,27 +85,54 @@ double grain_seconds(LAMMPS_NS::LAMMPS* lmp, const PastRun& past, double grain_s
   return grain_steps / speed;
 }
 
-/// Error of the permeability where the coefficient is calibrated; empty otherwise.
+/// The diameter, m, below which a tenth of the grains' surface lies: of a gap-graded bed that of its fines,
+/// whatever a few lone grains have. Collective.
+double fine_diameter(const LiggghtsPort& port, const LiggghtsPort::Summary& grains) {
+  constexpr int classes = 64;
+  constexpr double share = 0.1;
+  const double least = 2 * grains.smallest_radius, growth = grains.largest_radius / grains.smallest_radius;
+  if (growth < 1 + 1e-9) return least;
+  std::vector<double> bounds;
+  for (int n = 1; n < classes; ++n) bounds.push_back(least * std::pow(growth, double(n) / classes));
+  const std::vector<double> counts = port.grains_by_size(bounds);
+  std::vector<double> surfaces;
+  for (std::size_t n = 0; n < counts.size(); ++n) {
+    const double middle = least * std::pow(growth, (static_cast<double>(n) + 0.5) / classes);
+    surfaces.push_back(counts[n] * middle * middle);
+  }
+  double below = -share * std::accumulate(surfaces.begin(), surfaces.end(), 0.);
+  for (std::size_t n = 0; n < bounds.size(); ++n)
+    if ((below += surfaces[n]) >= 0) return n == 0 ? least : bounds[n - 1];  // the low end of the class
+  return bounds.back();
+}
+
+/// Error of the permeability where the coefficient is calibrated; empty otherwise. `cells` a diameter of the
+/// finest tenth of the surface: the fines of a graded bed make its pores.
 std::string error_line(const SolidSettings& solids, double cells) {
   const bool calibrated = solids.automatic_coefficient &&
                           solids.cells.solid_operator == lbm::SolidOperator::force &&
                           solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
   if (!calibrated) return "";
   return fmt::format(
-      "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %)\n",
-      100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells));
+      "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %), by the "
+      "{:.2g} cells per diameter of the finest tenth of the grains' surface\n",
+      100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells), cells);
 }
 
 std::string scene_text(const CoupledSettings& settings, const lbm::Units& units, const lbm::Index3& cells,
-                       const LiggghtsPort::Summary& grains, double time, double steps, double bytes) {
+                       const LiggghtsPort::Summary& grains, double fine, double time, double steps,
+                       double bytes) {
   std::string text = fmt::format(
       "lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells, {} each; {:.3g} GB for the fluid\n", time,
       steps, cells[0], cells[1], cells[2], count_text(settings.substeps, "DEM step"), bytes * 1e-9);
   text += "lbm plan: " + units.summary() + "\n";
+  for (const std::string& note : units.warnings()) text += "lbm plan: note: " + note + "\n";
   if (grains.grains == 0) return text;
   text += fmt::format("lbm plan: {}, {}\n", count_text(grains.grains, "grain"),
                       sizes_text(grains, units.spacing()));
-  return text + error_line(settings.solids, grains.sauter_diameter / units.spacing());
+  text += error_line(settings.solids, fine / units.spacing());
+  const std::string note = resolution_note(grains, units.spacing());
+  return note.empty() ? text : text + "lbm plan: note: " + note + "\n";
 }
 
 std::string cost_table(const Costs& costs, double steps, bool grains_known) {
@@ -132,7 +160,8 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   if (grains_move)
     costs.grains = grain_seconds(lmp, past, settings.substeps * static_cast<double>(grains.grains));
   const double steps = std::max(1., std::round(units.time_to_lattice(time)));
-  tell(lmp, scene_text(settings, units, parts.cells(), grains, time, steps, costs.bytes) +
+  const double fine = grains.grains > 0 ? fine_diameter(port, grains) : 0;
+  tell(lmp, scene_text(settings, units, parts.cells(), grains, fine, time, steps, costs.bytes) +
                 cost_table(costs, steps, past.grain_steps > 0));
 }
 

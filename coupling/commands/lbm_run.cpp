@@ -11,6 +11,7 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
+#include "scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"
@@ -71,7 +72,8 @@ std::string LbmRun::details() const {
 }
 
 void LbmRun::check(long step) {
-  if (step % kCheckEvery != 0 && step != last_ && step != first_) return;
+  // Before anything is written, too: nothing of a flow that is lost.
+  if (step % kCheckEvery != 0 && step != last_ && step != first_ && !output_.due(step)) return;
   extremes_ = simulation_.fluid().extremes();
   refuse_grains_behind_walls(simulation_);
   if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
@@ -97,7 +99,7 @@ bool LbmRun::is_steady(double share) {
 void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
                    std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
-  const long steps = steps_in(request.time, units);
+  const long steps = units.steps_in(request.time);
   if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
       dem_steps > MAXSMALLINT)
     throw_user_error({"lbm run", "time",
@@ -107,7 +109,10 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
                   [](const OutputRequest& output) { return output.contacts; }))
     port_.use_contacts();
+  tell_meshes_beyond_periodic_faces(lmp_);
+  port_.set_fluid_time(simulation_.time_si());  // what LIGGGHTS's setup prints may ask for it
   port_.begin(steps * simulation_.substeps());
+  port_.set_fluid_time(simulation_.time_si());
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
@@ -122,13 +127,14 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   first_ = simulation_.fluid().steps();
   last_ = first_ + steps;
   start_ = MPI_Wtime();
-  output_.write(lmp_, port_, simulation_);
   check(first_);
+  output_.write(lmp_, port_, simulation_);
 }
 
 /// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
 void LbmRun::advance(long step, bool is_last) {
   port_.check_unchanged();
+  port_.set_fluid_time(simulation_.time_si());
   if (follow_variables_) set_values();
   if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
   if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
@@ -142,10 +148,10 @@ void LbmRun::advance(long step, bool is_last) {
 /// What is due after a step; true if the flow has become steady.
 bool LbmRun::look(long step, const RunRequest& request) {
   const double before = MPI_Wtime();
-  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
   check(step);
+  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
   const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, steps_in(window, simulation_.units()));
+  const long steady_every = std::max(10L, simulation_.units().steps_in(window));
   bool steady = false;
   if (request.steady && (step - first_) % steady_every == 0) {
     simulation_.map();
@@ -216,6 +222,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
+  const GrainCensus census(lmp_);
   begin(request, effects, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
@@ -233,7 +240,9 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   const double made = static_cast<double>(simulation_.fluid().steps() - first_);
   simulation_.refresh_loads();
   port_.end();
+  port_.set_fluid_time(simulation_.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
+  census.tell_lost();
   const std::string where_time_went = table();
   if (request.steady)
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",

@@ -10,6 +10,7 @@
 #include "domain.h"
 #include "lammps.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::coupling {
 
@@ -65,9 +66,9 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
 void read_fluid(ArgumentReader& reader, LbmSettings& settings) {
   lbm::UnitsRequest units = settings.coupled.units;
   while (!reader.done()) {
-    if (reader.accept("density"))
+    if (reader.keyword("density"))
       units.density = reader.positive("density");
-    else if (reader.accept("viscosity"))
+    else if (reader.keyword("viscosity"))
       units.viscosity = reader.positive("viscosity");
     else
       reader.unknown(reader.word("keyword"), "density, viscosity");
@@ -86,21 +87,21 @@ void read_lattice(ArgumentReader& reader, LbmSettings& settings) {
   lbm::Precision precision = settings.coupled.fluid.precision;
   std::string region = settings.region;
   while (!reader.done()) {
-    if (reader.accept("spacing"))
+    if (reader.keyword("spacing"))
       units.spacing = reader.positive("spacing");
-    else if (reader.accept("relaxation_time"))
+    else if (reader.keyword("relaxation_time"))
       units.relaxation_time = reader.positive("relaxation_time");
-    else if (reader.accept("timestep"))
+    else if (reader.keyword("timestep"))
       units.time_step = reader.positive("timestep");
-    else if (reader.accept("max_velocity"))
+    else if (reader.keyword("max_velocity"))
       units.largest_velocity = reader.positive("max_velocity");
-    else if (reader.accept("mach"))
+    else if (reader.keyword("mach"))
       units.mach = reader.positive("mach");
-    else if (reader.accept("precision"))
+    else if (reader.keyword("precision"))
       precision = choose<lbm::Precision>(
           reader, "precision",
           {{"double", lbm::Precision::double_precision}, {"float", lbm::Precision::float_precision}});
-    else if (reader.accept("region"))
+    else if (reader.keyword("region"))
       region = reader.word("region");
     else
       reader.unknown(reader.word("keyword"),
@@ -147,9 +148,9 @@ void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& set
     throw_user_error({reader.who(), "keyword", "missing", "be gravity or pressure_gradient", ""});
   ScriptVector gravity = settings.gravity, gradient = settings.pressure_gradient;
   while (!reader.done()) {
-    if (reader.accept("gravity"))
+    if (reader.keyword("gravity"))
       gravity = ScriptVector::read(reader, lmp, "gravity");
-    else if (reader.accept("pressure_gradient"))
+    else if (reader.keyword("pressure_gradient"))
       gradient = ScriptVector::read(reader, lmp, "pressure_gradient");
     else
       reader.unknown(reader.word("keyword"), "gravity, pressure_gradient");
@@ -167,12 +168,12 @@ void read_collision(ArgumentReader& reader, LbmSettings& settings) {
                                       {"trt_comoving", lbm::CollisionOperator::trt_comoving},
                                       {"central_moments", lbm::CollisionOperator::central_moments}});
   while (!reader.done()) {
-    if (reader.accept("magic")) {
+    if (reader.keyword("magic")) {
       if (!lbm::has_magic(collision.collision_operator))
         throw_user_error({reader.who(), "magic", "given", "go with trt or trt_comoving",
                           "drop it, or write `lbm collision trt magic ...`"});
       collision.magic = reader.positive("magic");
-    } else if (reader.accept("incompressible"))
+    } else if (reader.keyword("incompressible"))
       collision.incompressible = choose<bool>(reader, "incompressible", kYesNo);
     else
       reader.unknown(reader.word("keyword"), "magic, incompressible");
@@ -185,23 +186,23 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
   (void)reader.accept("psm");
   bool coefficient_given = false;
   while (!reader.done()) {
-    if (reader.accept("operator")) {
+    if (reader.keyword("operator")) {
       solids.cells.solid_operator = choose<lbm::SolidOperator>(reader, "operator",
                                                                {{"sc1", lbm::SolidOperator::sc1},
                                                                 {"sc2", lbm::SolidOperator::sc2},
                                                                 {"sc3", lbm::SolidOperator::sc3},
                                                                 {"force", lbm::SolidOperator::force}});
-    } else if (reader.accept("weighting")) {
+    } else if (reader.keyword("weighting")) {
       solids.cells.weighting = choose<lbm::SolidWeighting>(
           reader, "weighting",
           {{"fraction", lbm::SolidWeighting::fraction},
            {"noble_torczynski", lbm::SolidWeighting::noble_torczynski},
            {"viscosity_independent", lbm::SolidWeighting::viscosity_independent}});
-    } else if (reader.accept("coefficient")) {
+    } else if (reader.keyword("coefficient")) {
       coefficient_given = true;
       solids.automatic_coefficient = reader.accept("auto");
       if (!solids.automatic_coefficient) solids.cells.coefficient = reader.positive("coefficient");
-    } else if (reader.accept("fraction")) {
+    } else if (reader.keyword("fraction")) {
       solids.fraction = choose<FractionMethod>(reader, "fraction",
                                                {{"exact", FractionMethod::exact},
                                                 {"linear", FractionMethod::linear},
@@ -213,7 +214,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
               {reader.who(), "subcells", fmt::format("{}", n), "be at most 32", "5 is the thesis's"});
         solids.subcells = static_cast<int>(n);
       }
-    } else if (reader.accept("remap")) {
+    } else if (reader.keyword("remap")) {
       solids.remap_distance = reader.positive("remap");
     } else {
       reader.unknown(reader.word("keyword"), "operator, weighting, coefficient, fraction, remap");
@@ -236,14 +237,14 @@ void read_effect(ArgumentReader& reader, LbmSettings& settings) {
   EffectSettings effects = settings.coupled.effects;
   double smagorinsky = settings.smagorinsky;
   while (!reader.done()) {
-    if (reader.accept("turbulence")) {
+    if (reader.keyword("turbulence")) {
       effects.turbulence = choose<Switch>(reader, "turbulence", kSwitch);
       if (reader.next_is_number()) smagorinsky = reader.positive("Smagorinsky constant");
-    } else if (reader.accept("lubrication")) {
+    } else if (reader.keyword("lubrication")) {
       effects.lubrication = choose<Switch>(reader, "lubrication", kSwitch);
-    } else if (reader.accept("buoyancy")) {
+    } else if (reader.keyword("buoyancy")) {
       effects.buoyancy = choose<Switch>(reader, "buoyancy", kSwitch);
-    } else if (reader.accept("rotation")) {
+    } else if (reader.keyword("rotation")) {
       effects.rotation = choose<Switch>(reader, "rotation", kSwitch);
     } else {
       reader.unknown(reader.word("keyword"), "turbulence, lubrication, buoyancy, rotation");
@@ -259,16 +260,16 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   std::optional<double> virtual_mass = settings.coupled.virtual_mass;
   double largest_mach = settings.largest_mach;
   while (!reader.done()) {
-    if (reader.accept("substeps")) {
+    if (reader.keyword("substeps")) {
       constexpr std::int64_t most = 1000000;
       const std::int64_t n = reader.accept("auto") ? 0 : reader.positive_integer("substeps");
       if (n > most)
         throw_user_error({reader.who(), "substeps", fmt::format("{}", n), fmt::format("be at most {}", most),
                           "`auto` takes as many as the script's `timestep` needs"});
       substeps = static_cast<int>(n);
-    } else if (reader.accept("average_force")) {
+    } else if (reader.keyword("average_force")) {
       average = choose<bool>(reader, "average_force", kYesNo);
-    } else if (reader.accept("virtual_mass")) {
+    } else if (reader.keyword("virtual_mass")) {
       if (reader.accept("auto")) {
         virtual_mass.reset();
       } else {
@@ -277,7 +278,7 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
           throw_user_error({reader.who(), "virtual_mass", fmt::format("{:g}", *virtual_mass), "be >= 0",
                             "0.5 is that of a sphere; `auto` decides"});
       }
-    } else if (reader.accept("max_mach")) {
+    } else if (reader.keyword("max_mach")) {
       largest_mach = reader.positive("max_mach");
     } else {
       reader.unknown(reader.word("keyword"), "substeps, average_force, virtual_mass, max_mach");
@@ -304,6 +305,7 @@ void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
 
 void read_output(ArgumentReader& reader, LbmSettings& settings) {
   OutputRequest output;
+  bool grains_named = false;  // `contacts` brings them along
   output.id = reader.word("ID of the output");
   if (reader.accept("off")) {
     std::erase_if(settings.outputs, [&](const OutputRequest& o) { return o.id == output.id; });
@@ -316,14 +318,16 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
                                                         {"density", lbm::Field::density},
                                                         {"solid_fraction", lbm::Field::solid_fraction}};
   while (!reader.done()) {
-    if (reader.accept("every")) {
+    if (reader.keyword("every")) {
       output.every = reader.positive("every");
-    } else if (reader.accept("file")) {
+    } else if (reader.keyword("file")) {
       output.file = reader.word("file");
     } else {
       (void)reader.accept("fields");
       const std::string word = reader.word("field");
       if (word == "grains" || word == "contacts") {
+        refuse_repeated(reader, word, word == "grains" ? grains_named : output.contacts);
+        grains_named |= word == "grains";
         output.grains = true;
         output.contacts = output.contacts || word == "contacts";
       } else if (const auto field = fields.find(word); field != fields.end()) {
@@ -365,22 +369,17 @@ std::vector<std::string> files_of(const CheckpointRequest& checkpoint) {
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files) {
   std::map<std::string, std::string> taken;
-  const auto key = [](const std::string& file) { return std::filesystem::weakly_canonical(file).string(); };
   for (const MonitorRequest& monitor : settings.monitors)
-    taken[key(monitor.file)] = "lbm monitor " + monitor.id;
+    taken[one_name_of(monitor.file)] = "lbm monitor " + monitor.id;
   for (const OutputRequest& output : settings.outputs)
-    for (const std::string& file : files_of(output)) taken[key(file)] = "lbm output " + output.id;
+    for (const std::string& file : files_of(output)) taken[one_name_of(file)] = "lbm output " + output.id;
   if (settings.checkpoint)
-    for (const std::string& file : files_of(*settings.checkpoint)) taken[key(file)] = "lbm restart write";
+    for (const std::string& file : files_of(*settings.checkpoint))
+      taken[one_name_of(file)] = "lbm restart write";
   for (const std::string& file : files)
-    if (const auto other = taken.find(key(file)); other != taken.end())
+    if (const auto other = taken.find(one_name_of(file)); other != taken.end())
       throw_user_error({reader.who(), "file", file, fmt::format("not be that of `{}`", other->second),
                         "give each its own file"});
-}
-
-long steps_in(double seconds, const lbm::Units& units) {
-  constexpr double most = 1e15;  // no run gets there
-  return std::max(1L, std::lround(std::min(most, units.time_to_lattice(seconds))));
 }
 
 lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {

@@ -91,9 +91,6 @@ std::vector<std::string> files_of(const CheckpointRequest& checkpoint);
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files);
 
-/// Whole fluid steps nearest to a time in s, one at least and 1e15 at most.
-long steps_in(double seconds, const lbm::Units& units);
-
 /// Does any face or force follow a variable?
 bool values_change(const LbmSettings& settings);
 

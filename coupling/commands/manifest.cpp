@@ -16,6 +16,16 @@ std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing) {
                      grains.sauter_diameter / spacing);
 }
 
+std::string resolution_note(const LiggghtsPort::Summary& grains, double spacing) {
+  constexpr double least = 3.5;  // fewer cells a diameter than the coefficient was calibrated for
+  const double smallest = 2 * grains.smallest_radius / spacing;
+  if (grains.grains == 0 || smallest >= least) return "";
+  return fmt::format(
+      "the smallest grains have {:.2g} cells per diameter; below {:g} their drag is rough "
+      "(docs/decisions/solid-operator.md), and a spacing of {:.2g} m resolves them",
+      smallest, least, 2 * grains.smallest_radius / least);
+}
+
 namespace {
 
 std::string faces_text(const lbm::FaceConditions& faces) {
@@ -55,9 +65,6 @@ int driven_axis(const lbm::FaceConditions& faces) {
       if (faces[side].kind == lbm::FaceKind::pressure) return static_cast<int>(axis);
   return -1;
 }
-
-/// Fewer cells a diameter than the coefficient was calibrated for.
-constexpr double kLeastCells = 3.5;
 
 /// Thinner than this there is no bed.
 constexpr double kBedPacking = 0.3;
@@ -101,13 +108,8 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                               simulation.settings().average_force ? ", mean force of two steps" : ""));
   for (const EffectChoice& effect : effects)
     lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
-  const double smallest = 2 * grains.smallest_radius / units.spacing();
-  if (grains.grains > 0 && smallest < kLeastCells)
-    lines.push_back(
-        fmt::format("note: the smallest grains have {:.2g} cells per diameter; below {:g} their drag is "
-                    "rough (docs/decisions/solid-operator.md), and a spacing "
-                    "of {:.2g} m resolves them",
-                    smallest, kLeastCells, 2 * grains.smallest_radius / kLeastCells));
+  if (const std::string note = resolution_note(grains, units.spacing()); !note.empty())
+    lines.push_back("note: " + note);
   for (const std::string& warning : units.warnings()) lines.push_back("note: " + warning);
   return lines;
 }

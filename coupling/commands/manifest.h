@@ -17,6 +17,9 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                                   const std::vector<std::string>& walls);
 
 /// "3.81 to 6.83 cells per diameter, Sauter mean 4.97". Needs at least one grain.
+/// Says so where the smallest grains are too coarse for their drag; empty otherwise.
+std::string resolution_note(const LiggghtsPort::Summary& grains, double spacing);
+
 std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing);
 
 /// Where the time went, as a table: each part in seconds, milliseconds a step and share, the slowest rank's.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "../liggghts/liggghts_port.h"
 #include "checkpoint_contents.h"
 #include "monitor_request.h"
+#include "suffuse/common/time_series_file.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/plane_sums.h"
 
@@ -69,15 +69,15 @@ class Monitor {
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
  private:
-  void open(std::optional<double> continue_after, MPI_Comm communicator);
+  void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);
+  void refuse_repeated_columns() const;
   std::string key(const Quantity& quantity) const;
 
   MonitorRequest request_;
   std::vector<Quantity> quantities_;
   long every_ = 1;
-  bool speaks_;
   long last_step_ = -1;
-  std::ofstream file_;
+  std::optional<TimeSeriesFile> file_;
 };
 
 }  // namespace suffuse::coupling

@@ -156,8 +156,16 @@ Quantity mass_quantity() {
             const lbm::Index3& cells = sample.simulation.fluid().decomposition().cells();
             const double area = std::pow(units.spacing(), 2) * cells[0] * cells[1] * cells[2] /
                                 static_cast<double>(planes.planes());
+            // Walls and symmetry let nothing in, and what leaves through a periodic face comes in by the
+            // other.
+            const auto& faces = sample.simulation.fluid().settings().faces;
+            const auto through = [&](int side, const Vec3& flux) {
+              const lbm::FaceKind kind = faces[static_cast<std::size_t>(2 * sample.axis + side)].kind;
+              const bool open = kind == lbm::FaceKind::velocity || kind == lbm::FaceKind::pressure;
+              return open ? flux[sample.axis] : 0;
+            };
             const double inflow =
-                units.density() * area * (planes.flux.front()[sample.axis] - planes.flux.back()[sample.axis]);
+                units.density() * area * (through(0, planes.flux.front()) - through(1, planes.flux.back()));
             const double time = sample.simulation.time_si();
             if (state->size() != size) *state = {planes.stored_mass, time, inflow, 0};
             std::vector<double>& s = *state;

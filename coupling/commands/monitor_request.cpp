@@ -74,15 +74,15 @@ MonitorRequest read_monitor_request(ArgumentReader& reader, const std::string& i
   MonitorRequest monitor;
   monitor.id = id;
   while (!reader.done()) {
-    if (reader.accept("every")) {
+    if (reader.keyword("every")) {
       monitor.every = reader.positive("every");
-    } else if (reader.accept("file")) {
+    } else if (reader.keyword("file")) {
       monitor.file = reader.word("file");
-    } else if (reader.accept("axis")) {
+    } else if (reader.keyword("axis")) {
       const std::string axis = reader.word("axis");
       if (axis != "x" && axis != "y" && axis != "z") reader.unknown(axis, "x, y, z");
       monitor.axis = axis[0] - 'x';
-    } else if (reader.accept("layers")) {
+    } else if (reader.keyword("layers")) {
       monitor.layers = read_layers(reader);
     } else {
       monitor.quantities.push_back(read_quantity(reader, reader.word("quantity")));

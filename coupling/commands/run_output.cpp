@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include "../liggghts/restart_file.h"
@@ -18,9 +17,11 @@
 #include "domain.h"
 #include "lammps.h"
 #include "saved_set.h"
+#include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "update.h"
 #include "write_restart.h"
@@ -29,18 +30,20 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Tries the file before the run spends any time; leaves none behind. Collective.
-void require_writable(const std::string& who, const std::string& file, MPI_Comm communicator) {
-  int rank = 0, failed = 0;
-  MPI_Comm_rank(communicator, &rank);
-  if (rank == 0) {
-    std::error_code ignored;
-    const bool existed = std::filesystem::exists(file, ignored);
-    failed = std::ofstream(file, std::ios::app) ? 0 : 1;
-    if (!existed && failed == 0) std::filesystem::remove(file, ignored);
-  }
-  MPI_Bcast(&failed, 1, MPI_INT, 0, communicator);
-  if (failed != 0) throw_user_error({who, "file", file, "be writable", "check its folder"});
+/// Before the run spends any time. What an earlier run left under the names is kept under others, unless it
+/// goes on. Collective.
+void open_files_of(const OutputRequest& request, bool goes_on, LAMMPS_NS::LAMMPS* lmp) {
+  const std::string who = "lbm output " + request.id;
+  std::string notes;
+  on_first_rank(who, lmp->world, [&] {
+    for (const std::string& file : files_of(request)) {
+      require_writable(file, who);
+      if (goes_on) continue;
+      if (const auto earlier = keep_earlier(file, who))
+        notes += fmt::format("{}: note: {} of an earlier run is now {}\n", who, file, *earlier);
+    }
+  });
+  if (!notes.empty()) tell(lmp, notes);
 }
 
 bool exists_for_all(const std::string& file, MPI_Comm communicator) {
@@ -155,8 +158,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
                     [&](const auto& open) { return open->request.id == request.id; }))
       continue;
     const bool continues = continue_after && exists_for_all(request.file, lmp->world);
-    for (const std::string& file : files_of(request))
-      require_writable("lbm output " + request.id, file, lmp->world);
+    open_files_of(request, continue_after.has_value(), lmp);
     lbm::FieldOutputSettings fields;
     fields.path = request.file;
     fields.fields = request.fields;
@@ -166,7 +168,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
       return simulation.fluid().solid_fraction(cell);
     };
     fields_.push_back(std::make_unique<Fields>(Fields{request,
-                                                      steps_in(request.every, simulation.units()),
+                                                      simulation.units().steps_in(request.every),
                                                       -1,
                                                       continues,
                                                       lbm::FieldOutput(fields, simulation.units()),
@@ -175,7 +177,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
   }
   checkpoint_ = settings.checkpoint;
   if (checkpoint_) require_free_for_sets(checkpoint_->file, lmp->world);
-  checkpoint_every_ = checkpoint_ ? steps_in(checkpoint_->every, simulation.units()) : 0;
+  checkpoint_every_ = checkpoint_ ? simulation.units().steps_in(checkpoint_->every) : 0;
 }
 
 bool RunOutput::wants_values(long step) const {

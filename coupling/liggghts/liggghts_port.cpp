@@ -52,11 +52,7 @@ FixHydrodynamicForce* find_force_fix(LAMMPS* lmp) {
 LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
   if (lmp->atom->superquadric_flag != 0)
     throw_user_error({"lbm run", "atom_style", "superquadric", "be spheres", "write `atom_style granular`"});
-  for (int i = 0; i < lmp->modify->nfix; ++i)
-    if (std::string(lmp->modify->fix[i]->style).find("multisphere") == 0)
-      throw_user_error({"lbm run", "fix", lmp->modify->fix[i]->style,
-                        "not be defined: grains are single spheres",
-                        "use `fix nve/sphere` with single spheres"});
+  require_single_spheres(lmp, "lbm run");
   if (find_force_fix(lmp) == nullptr) {
     std::string id = "hydrodynamic_force", group = "all", style = "hydrodynamic/force";
     char* words[] = {id.data(), group.data(), style.data()};
@@ -64,6 +60,7 @@ LiggghtsPort::LiggghtsPort(LAMMPS* lmp) : lmp_(lmp) {
     made_fix_ = true;
   }
   fix_ = find_force_fix(lmp);
+  keep_box();
 }
 
 void LiggghtsPort::withdraw() {
@@ -330,12 +327,20 @@ void LiggghtsPort::begin(std::int64_t steps) {
   EarlyStop::requested = false;
   lmp_->init();
   every_step_ = !moves_ && acts_in_every_step();
+  running_ = true;
   update->integrate->setup();
   lmp_->timer->init();
-  const auto* domain = lmp_->domain;
-  std::copy_n(domain->boxlo, 3, box_.begin());
-  std::copy_n(domain->boxhi, 3, box_.begin() + 3);
-  running_ = true;
+  keep_box();
+}
+
+void LiggghtsPort::keep_box() {
+  std::copy_n(lmp_->domain->boxlo, 3, box_.begin());
+  std::copy_n(lmp_->domain->boxhi, 3, box_.begin() + 3);
+}
+
+void LiggghtsPort::set_fluid_time(double seconds) {
+  using enum FixHydrodynamicForce::Fluid;
+  if (auto* fix = find_force_fix(lmp_)) fix->set_fluid_time(seconds, running_ ? flows : rests);
 }
 
 void LiggghtsPort::end_after(int substeps) {

@@ -46,6 +46,10 @@ class LiggghtsPort final : public ParticlePort {
   void end_after(int substeps);
   void end();
 
+  /// Tells scripts (`f_ID`) how long the fluid has flowed, s; from `begin` to `end` of a run its time goes on
+  /// with the grains' steps.
+  void set_fluid_time(double seconds);
+
   /// Does any fix integrate the motion of grains?
   bool anything_moves() const;
 
@@ -134,6 +138,7 @@ class LiggghtsPort final : public ParticlePort {
 
  private:
   void keep_memory();
+  void keep_box();
   bool acts_in_every_step() const;
   std::int64_t next_step_that_counts() const;
 

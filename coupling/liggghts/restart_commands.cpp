@@ -9,6 +9,7 @@
 #include "read_restart.h"
 #include "register_styles.h"
 #include "restart_file.h"
+#include "scene_checks.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "write_restart.h"
@@ -26,6 +27,7 @@ void read_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   if (is_one_file(narg, arg))
     on_first_rank("read_restart", lmp->world, [&] { require_whole_restart_file(arg[0]); });
   LAMMPS_NS::ReadRestart(lmp).command(narg, arg);
+  require_unique_grains(lmp, "read_restart");
 }
 
 void write_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {

@@ -6,11 +6,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
+#include <cstdio>
+#include <cstdlib>
 
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/safe_file.h"
+#include "suffuse/common/time_series_file.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/flow_case.h"
 #include "suffuse/lbm/health.h"
@@ -20,6 +25,11 @@ namespace {
 using namespace suffuse;
 using namespace suffuse::lbm;
 using Clock = std::chrono::steady_clock;
+
+/// Exit code of a run that was to become steady and did not.
+constexpr int kNotSteady = 3;
+constexpr const char *kMonitor = "suffuse-flow [monitor]", *kOutput = "suffuse-flow [output]",
+                     *kRestart = "suffuse-flow [restart]";
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -33,37 +43,45 @@ class FlowRun {
         units_(flow.units),
         fluid_(settings_of(flow, units_), Decomposition::balanced(MPI_COMM_WORLD, cells_of(flow, units_))),
         speaks_(fluid_.decomposition().rank() == 0) {
+    if (const double steps = units_.time_to_lattice(flow_.time); steps > Units::kMostSteps)
+      throw_user_error({"suffuse-flow", "time",
+                        fmt::format("{:g} s, which are {:.3g} steps", flow_.time, steps),
+                        fmt::format("be at most {:g} steps", Units::kMostSteps), "SI units"});
     add_spheres();
     fluid_.set_force(force_at(flow_, units_, 0));
     if (!flow_.restart_read.empty()) load_state(fluid_, flow_.restart_read);
-    if (flow_.output) output_.emplace(*flow_.output, units_);
     for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
       fluid_cells_ += fluid_.is_solid({x, y, z}) ? 0 : 1;
     });
     MPI_Allreduce(MPI_IN_PLACE, &fluid_cells_, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   }
 
-  void run() {
+  /// Has the flow become steady, where it was to?
+  enum class End { as_told, not_steady };
+
+  End run() {
     tell_settings();
-    open_monitor();
-    const long first = fluid_.steps(),
-               last = first + std::max(1L, std::lround(units_.time_to_lattice(flow_.time)));
-    const long monitor_every = steps_of(flow_.monitor_every), output_every = steps_of(flow_.output_every);
+    open_files();
+    const long first = fluid_.steps(), last = first + units_.steps_in(flow_.time);
+    const long monitor_every = units_.steps_in(flow_.monitor_every),
+               output_every = flow_.output ? units_.steps_in(flow_.output_every) : 1;
     const long check_every = std::max(10L, (last - first) / 100), tenth = std::max(2L, (last - first) / 10);
     ProgressLine progress(speaks_);
-    double last_mean = 0;
+    bool steady = false;
     report(progress, first, first, last);
     write_due(first, monitor_every, output_every);
-    while (fluid_.steps() < last) {
+    while (fluid_.steps() < last && !steady) {
       step();
       const long done = fluid_.steps() - first;
       write_due(done, monitor_every, output_every);
       if (done % check_every == 0 || fluid_.steps() == last) report(progress, first, fluid_.steps(), last);
-      if (flow_.until_steady && done % tenth == 0 && is_steady(last_mean)) break;
+      steady = flow_.until_steady && done % tenth == 0 && is_steady();
     }
     progress.finish(details_);
-    if (!flow_.restart_write.empty()) save_state(fluid_, flow_.restart_write);
+    if (!flow_.restart_write.empty()) save();
+    if (flow_.until_steady) tell_steadiness(steady, fluid_.steps() - first);
     tell_speed(fluid_.steps() - first);
+    return flow_.until_steady && !steady ? End::not_steady : End::as_told;
   }
 
  private:
@@ -77,10 +95,26 @@ class FlowRun {
     return settings;
   }
 
-  long steps_of(double seconds) const { return std::max(1L, std::lround(units_.time_to_lattice(seconds))); }
+  /// A sphere that holds no cell's centre would change nothing.
+  void require_covering(const FlowSphere& sphere) const {
+    Vec3 distance;
+    for (int a = 0; a < 3; ++a) {
+      const bool periodic = flow_.faces[static_cast<std::size_t>(2 * a)].kind == FaceKind::periodic;
+      const double dx = units_.spacing(), x = sphere.centre[a] / dx;
+      const double cell = std::floor(x);
+      const double last = fluid_.decomposition().cells()[static_cast<std::size_t>(a)] - 1;
+      distance[a] = dx * (x - 0.5 - (periodic ? cell : std::clamp(cell, 0., last)));
+    }
+    if (distance.norm() < sphere.radius) return;
+    throw_user_error({"suffuse-flow [solids]", "spheres",
+                      fmt::format("one of radius {:g} m at ({:g}, {:g}, {:g})", sphere.radius,
+                                  sphere.centre[0], sphere.centre[1], sphere.centre[2]),
+                      "hold the centre of a cell", "the box is from 0 to size; SI units"});
+  }
 
   void add_spheres() {
     if (flow_.spheres.empty()) return;
+    for (const FlowSphere& sphere : flow_.spheres) require_covering(sphere);
     const Vec3 size = flow_.size;
     fluid_.set_solids([&](const Index3& c) {
       const Vec3 centre = units_.spacing() * Vec3(c[0] + 0.5, c[1] + 0.5, c[2] + 0.5);
@@ -119,14 +153,47 @@ class FlowRun {
     std::fflush(stdout);
   }
 
+  /// Before any time is spent. What an earlier run left under the names is kept under others.
+  void open_files() {
+    std::vector<std::string> fields;
+    if (flow_.output) fields = {flow_.output->path, xdmf_beside(flow_.output->path)};
+    on_first_rank("suffuse-flow", MPI_COMM_WORLD, [&] {
+      if (!flow_.monitor_file.empty()) require_writable(flow_.monitor_file, kMonitor);
+      for (const std::string& file : fields) require_writable(file, kOutput);
+      if (flow_.restart_write.empty()) return;
+      require_writable(flow_.restart_write, kRestart);
+      require_replaceable(flow_.restart_write, kRestart);
+    });
+    if (!flow_.monitor_file.empty()) open_monitor();
+    if (!flow_.output) return;
+    output_.emplace(*flow_.output, units_);
+    for (const std::string& file : fields)
+      if (!flow_.output->append) keep(file, kOutput);
+  }
+
   void open_monitor() {
-    if (flow_.monitor_file.empty() || !speaks_) return;
-    monitor_.open(flow_.monitor_file, flow_.restart_read.empty() ? std::ios::trunc : std::ios::app);
-    if (!monitor_) throw UserError("cannot write monitor file " + flow_.monitor_file);
-    if (flow_.restart_read.empty())
-      monitor_ << "time_s,superficial_velocity_x_m_per_s,superficial_velocity_y_m_per_s,superficial_velocity_"
-                  "z_m_per_s,"
-                  "solid_force_x_n,solid_force_y_n,solid_force_z_n,mass_kg\n";
+    std::string header = "time_s";
+    for (const char* name : {"superficial_velocity_{}_m_per_s", "solid_force_{}_n"})
+      for (const char axis : {'x', 'y', 'z'}) header += "," + fmt::format(fmt::runtime(name), axis);
+    std::optional<double> continued_at;
+    if (!flow_.restart_read.empty()) continued_at = units_.time_to_si(static_cast<double>(fluid_.steps()));
+    monitor_.emplace(flow_.monitor_file, header + ",mass_kg", kMonitor, continued_at, MPI_COMM_WORLD);
+    tell_earlier(flow_.monitor_file, monitor_->earlier());
+  }
+
+  void save() const {
+    keep(flow_.restart_write, kRestart);
+    save_state(fluid_, flow_.restart_write);
+  }
+
+  void keep(const std::string& file, const std::string& who) const {
+    std::string earlier;
+    on_first_rank(who, MPI_COMM_WORLD, [&] { earlier = keep_earlier(file, who).value_or(""); });
+    tell_earlier(file, earlier);
+  }
+
+  void tell_earlier(const std::string& file, const std::string& earlier) const {
+    if (speaks_ && !earlier.empty()) fmt::print("note: {} of an earlier run is now {}\n", file, earlier);
   }
 
   /// Mean momentum over the whole box (solids at rest included), as a velocity.
@@ -136,21 +203,25 @@ class FlowRun {
   }
 
   void write_due(long done, long monitor_every, long output_every) {
-    if (output_ && done % output_every == 0) output_->write(fluid_);
-    if (flow_.monitor_file.empty() || done % monitor_every != 0) return;
+    const bool fields = output_ && done % output_every == 0, row = monitor_ && done % monitor_every == 0;
+    if (fields || row) require_health();  // nothing is written of a flow that is lost
+    if (fields) output_->write(fluid_);
+    if (!row) return;
     const Vec3 u = superficial_velocity(), force = units_.force_to_si(fluid_.solid_force(1));
     const double cell_mass = units_.density() * std::pow(units_.spacing(), 3);
     const double mass = cell_mass * (fluid_cells_ + fluid_.mass_deviation());
-    if (!speaks_) return;
-    monitor_ << fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n",
-                            units_.time_to_si(static_cast<double>(fluid_.steps())), u[0], u[1], u[2],
-                            force[0], force[1], force[2], mass)
-             << std::flush;
+    monitor_->add({units_.time_to_si(static_cast<double>(fluid_.steps())), u[0], u[1], u[2], force[0],
+                   force[1], force[2], mass});
+  }
+
+  FluidExtremes require_health() const {
+    const FluidExtremes extremes = fluid_.extremes();
+    require_stable(extremes, units_, units_.time_to_si(static_cast<double>(fluid_.steps())), 1, "fluid");
+    return extremes;
   }
 
   void report(ProgressLine& progress, long first, long now, long last) {
-    const FluidExtremes extremes = fluid_.extremes();
-    require_stable(extremes, units_, units_.time_to_si(static_cast<double>(now)), 1, "fluid");
+    const FluidExtremes extremes = require_health();
     const double cells = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
     details_ =
         fmt::format("{:.4g} s  {:.1f} MLUPS  {}", units_.time_to_si(static_cast<double>(now)),
@@ -160,10 +231,23 @@ class FlowRun {
                     [this] { return details_; });
   }
 
-  bool is_steady(double& last_mean) const {
-    const double mean = superficial_velocity().norm(), change = std::abs(mean - last_mean);
-    last_mean = mean;
-    return change <= *flow_.until_steady * mean;
+  bool is_steady() {
+    const Vec3 mean = superficial_velocity();
+    const bool compared = last_mean_.has_value();
+    change_ = compared && mean.norm() > 0 ? (mean - *last_mean_).norm() / mean.norm() : 0;
+    last_mean_ = mean;
+    return compared && change_ <= *flow_.until_steady;
+  }
+
+  void tell_steadiness(bool steady, long steps) const {
+    if (!speaks_) return;
+    fmt::print(
+        "{} after {:.5g} s{}\n", steady ? "steady" : "not yet steady",
+        units_.time_to_si(static_cast<double>(steps)),
+        steady ? ""
+               : fmt::format(": the mean velocity still changes by {:.2g} of itself in a tenth of the run; "
+                             "give [run] time more",
+                             change_));
   }
 
   void tell_speed(long steps) {
@@ -190,7 +274,9 @@ class FlowRun {
   Fluid fluid_;
   bool speaks_;
   std::optional<FieldOutput> output_;
-  std::ofstream monitor_;
+  std::optional<TimeSeriesFile> monitor_;
+  std::optional<Vec3> last_mean_;  ///< a tenth of the run ago
+  double change_ = 0;              ///< of the mean velocity since then, as a share of it
   std::string details_;
   double fluid_cells_ = 0, step_seconds_ = 0;
 };
@@ -210,13 +296,25 @@ int main(int argc, char** argv) {
   int status = 0;
   try {
     app.parse(argc, argv);
-    FlowRun(read_flow_case(path)).run();
+    if (FlowRun(read_flow_case(path)).run() == FlowRun::End::not_steady) status = kNotSteady;
+    require_printed_output();
   } catch (const CLI::ParseError& error) {
     status = rank == 0 ? app.exit(error) : error.get_exit_code();
     if (status != 0) status = 1;
-  } catch (const std::exception& error) {
+  } catch (const UserError& error) {  // on all ranks alike
     if (rank == 0) fmt::print(stderr, "\nsuffuse-flow: {}\n", error.what());
     status = 1;
+  } catch (const std::exception& failure) {  // maybe on this rank alone
+    const std::string refusal = refusal_of_the_machine(failure);
+    fmt::print(
+        stderr, "\nsuffuse-flow: {}\n",
+        refusal.empty() ? fmt::format("internal error on rank {}: {}", rank, failure.what()) : refusal);
+    MPI_Abort(MPI_COMM_WORLD, refusal.empty() ? 2 : 1);
+  }
+  if (Hdf5File::left_open()) {
+    std::fflush(nullptr);
+    MPI_Barrier(MPI_COMM_WORLD);
+    std::_Exit(status);
   }
   MPI_Finalize();
   return status;

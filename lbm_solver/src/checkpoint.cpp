@@ -87,6 +87,7 @@ void read_labels(Fluid& fluid, const Hdf5File& file) {
 void save_state(const Fluid& fluid, const std::string& path) {
   const Decomposition& d = fluid.decomposition();
   const std::string unfinished = path + ".part";
+  on_first_rank("fluid restart", d.communicator(), [&] { require_replaceable(path, "fluid restart"); });
   {
     Hdf5File file(unfinished, Hdf5File::Mode::create, d.communicator());
     const std::size_t each = fluid.settings().precision == Precision::double_precision ? 8 : 4;

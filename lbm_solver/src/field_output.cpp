@@ -101,6 +101,10 @@ std::string xdmf(const std::string& file, const std::vector<Snapshot>& snapshots
 
 }  // namespace
 
+std::string xdmf_beside(const std::string& path) {
+  return std::filesystem::path(path).replace_extension(".xdmf").string();
+}
+
 FieldOutput::FieldOutput(const FieldOutputSettings& settings, const Units& units)
     : settings_(settings), units_(units) {}
 
@@ -130,7 +134,7 @@ void FieldOutput::write(const Fluid& fluid) {
         snapshots.push_back({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
     file.close();
   }
-  write_text(std::filesystem::path(path).replace_extension(".xdmf").string(), "output of fields",
+  write_text(xdmf_beside(settings_.path), "output of fields",
              xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()),
              d.communicator());
 }

@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::lbm {
@@ -19,11 +23,15 @@ namespace {
 /// One table of the file, which knows its name for messages and refuses keys that nobody asks for.
 class Section {
  public:
-  Section(const std::string& file, const std::string& name, const toml::table* table,
+  /// `node` null: the file has no such table, and everything in it its default.
+  Section(const std::string& file, const std::string& name, const toml::node* node,
           std::initializer_list<const char*> keys)
-      : who_(file + " [" + name + "]"), table_(table) {
-    if (table == nullptr) return;
-    for (const auto& [key, value] : *table) {
+      : who_(file + " [" + name + "]"), table_(node == nullptr ? nullptr : node->as_table()) {
+    if (node != nullptr && table_ == nullptr)
+      throw_user_error(
+          {file, name, "(another kind of value)", "be a table", fmt::format("write `[{}]`", name)});
+    if (table_ == nullptr) return;
+    for (const auto& [key, value] : *table_) {
       const std::string word(key.str());
       if (std::none_of(keys.begin(), keys.end(), [&](const char* k) { return word == k; }))
         throw_user_error({who_, "key", word, fmt::format("be one of {}", fmt::join(keys, ", ")), ""});
@@ -31,8 +39,23 @@ class Section {
   }
 
   const std::string& who() const { return who_; }
+  bool given() const { return table_ != nullptr; }
 
-  std::optional<double> number(const char* key) const { return get<double>(key, "be a number"); }
+  std::optional<double> number(const char* key) const {
+    const std::optional<double> value = get<double>(key, "be a number");
+    if (value && !std::isfinite(*value)) refuse(key, *value, "be finite");
+    return value;
+  }
+  std::optional<double> positive(const char* key) const {
+    const std::optional<double> value = number(key);
+    if (value && !(*value > 0)) refuse(key, *value, "be > 0");
+    return value;
+  }
+  std::optional<double> not_negative(const char* key) const {
+    const std::optional<double> value = number(key);
+    if (value && *value < 0) refuse(key, *value, "be >= 0");
+    return value;
+  }
   std::optional<std::string> text(const char* key) const {
     return get<std::string>(key, "be a text in quotes");
   }
@@ -43,7 +66,7 @@ class Section {
     if (node == nullptr) return std::nullopt;
     const std::optional<std::vector<double>> values = numbers(node);
     if (!values || values->size() != 3)
-      throw_user_error({who_, key, "(another value)", "be three numbers, [x, y, z]", ""});
+      throw_user_error({who_, key, "(another value)", "be three finite numbers, [x, y, z]", ""});
     return Vec3((*values)[0], (*values)[1], (*values)[2]);
   }
 
@@ -53,13 +76,17 @@ class Section {
     std::vector<double> values;
     for (const toml::node& element : *array) {
       const std::optional<double> value = element.value<double>();
-      if (!value) return std::nullopt;
+      if (!value || !std::isfinite(*value)) return std::nullopt;
       values.push_back(*value);
     }
     return values;
   }
 
   const toml::node* find(const char* key) const { return table_ == nullptr ? nullptr : table_->get(key); }
+
+  [[noreturn]] void refuse(const char* key, double value, const char* rule) const {
+    throw_user_error({who_, key, fmt::format("{}", value), rule, ""});
+  }
 
  private:
   template <class T>
@@ -102,30 +129,35 @@ FlowFace read_face(const std::string& file, const Section& boundary, const std::
                         fmt::format("{} = {{ kind = \"{}\", value = ... }}", name, *word)});
     return face;
   }
-  const Section table(file, "boundary." + name, node->as_table(), {"kind", "value", "ramp"});
   if (node->as_table() == nullptr)
     throw_user_error(
         {boundary.who(), name, "(another kind of value)", "be a kind or { kind, value, ramp }", ""});
-  face.kind = choose(table, "kind", table.text("kind").value_or(""), kFaceKinds);
-  if (face.kind == FaceKind::velocity) face.velocity_si = table.vector("value").value_or(Vec3::Zero());
-  if (face.kind == FaceKind::pressure) face.pressure_si = table.number("value").value_or(0);
-  face.ramp = table.number("ramp").value_or(0);
+  const Section table(file, "boundary." + name, node, {"kind", "value", "ramp"});
+  const std::string kind = table.text("kind").value_or("missing");
+  face.kind = choose(table, "kind", kind, kFaceKinds);
+  const bool valued = face.kind == FaceKind::velocity || face.kind == FaceKind::pressure;
+  if (valued != (table.find("value") != nullptr) || (!valued && table.find("ramp") != nullptr))
+    throw_user_error({table.who(), "kind", kind, valued ? "come with a value" : "come without value and ramp",
+                      "velocity takes [x, y, z] in m/s, pressure a number in Pa"});
+  if (face.kind == FaceKind::velocity) face.velocity_si = *table.vector("value");
+  if (face.kind == FaceKind::pressure) face.pressure_si = *table.number("value");
+  face.ramp = table.not_negative("ramp").value_or(0);
   return face;
 }
 
 void read_lattice(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section fluid(file, "fluid", root["fluid"].as_table(), {"density", "viscosity"});
-  flow.units.density = fluid.number("density").value_or(1000);
-  flow.units.viscosity = fluid.number("viscosity").value_or(1e-6);
+  const Section fluid(file, "fluid", root.get("fluid"), {"density", "viscosity"});
+  flow.units.density = fluid.positive("density").value_or(1000);
+  flow.units.viscosity = fluid.positive("viscosity").value_or(1e-6);
   const Section lattice(
-      file, "lattice", root["lattice"].as_table(),
+      file, "lattice", root.get("lattice"),
       {"size", "spacing", "relaxation_time", "timestep", "mach", "max_velocity", "pressure_difference",
        "precision", "collision", "magic", "smagorinsky", "incompressible"});
-  flow.units.spacing = lattice.number("spacing");
+  flow.units.spacing = lattice.positive("spacing");
   flow.units.relaxation_time = lattice.number("relaxation_time");
-  flow.units.time_step = lattice.number("timestep");
-  flow.units.mach = lattice.number("mach");
-  flow.units.largest_velocity = lattice.number("max_velocity");
+  flow.units.time_step = lattice.positive("timestep");
+  flow.units.mach = lattice.positive("mach");
+  flow.units.largest_velocity = lattice.positive("max_velocity");
   flow.units.pressure_difference = lattice.number("pressure_difference");
   const std::optional<Vec3> size = lattice.vector("size");
   if (!size || !(size->minCoeff() > 0))
@@ -140,13 +172,15 @@ void read_lattice(const std::string& file, const toml::table& root, FlowCase& fl
                                  {"trt", CollisionOperator::trt},
                                  {"trt_comoving", CollisionOperator::trt_comoving},
                                  {"central_moments", CollisionOperator::central_moments}});
-  flow.collision.magic = lattice.number("magic").value_or(flow.collision.magic);
-  flow.collision.smagorinsky = lattice.number("smagorinsky").value_or(0);
+  if (lattice.find("magic") != nullptr && !has_magic(flow.collision.collision_operator))
+    throw_user_error({lattice.who(), "magic", "given", "go with trt or trt_comoving", "drop it"});
+  flow.collision.magic = lattice.positive("magic").value_or(flow.collision.magic);
+  flow.collision.smagorinsky = lattice.not_negative("smagorinsky").value_or(0);
   flow.collision.incompressible = lattice.truth("incompressible").value_or(false);
 }
 
 void read_spheres(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section solids(file, "solids", root["solids"].as_table(), {"spheres"});
+  const Section solids(file, "solids", root.get("solids"), {"spheres"});
   const toml::node* node = solids.find("spheres");
   if (node == nullptr) return;
   const toml::array* array = node->as_array();
@@ -156,39 +190,68 @@ void read_spheres(const std::string& file, const toml::table& root, FlowCase& fl
     const std::optional<std::vector<double>> v = Section::numbers(&element);
     if (!v || v->size() != 4 || !((*v)[3] > 0))
       throw_user_error({solids.who(), "spheres", fmt::format("entry {}", flow.spheres.size() + 1),
-                        "be [x, y, z, radius] with a radius > 0", ""});
+                        "be [x, y, z, radius], finite, with a radius > 0", ""});
     flow.spheres.push_back({Vec3((*v)[0], (*v)[1], (*v)[2]), (*v)[3]});
   }
 }
 
-void read_files(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section monitor(file, "monitor", root["monitor"].as_table(), {"file", "every"});
-  flow.monitor_file = monitor.text("file").value_or("");
-  flow.monitor_every = monitor.number("every").value_or(flow.time / 100);
-  const Section output(file, "output", root["output"].as_table(), {"file", "every", "fields", "append"});
-  if (const std::optional<std::string> path = output.text("file")) {
-    flow.output.emplace();
-    flow.output->path = *path;
-    flow.output->append = output.truth("append").value_or(false);
-    flow.output_every = output.number("every").value_or(flow.time);
-    if (const toml::node* fields = output.find("fields")) {
-      flow.output->fields.clear();
-      if (fields->as_array() == nullptr)
-        throw_user_error({output.who(), "fields", "(another value)", "be a list of names", ""});
-      for (const toml::node& name : *fields->as_array())
-        flow.output->fields.push_back(choose<Field>(output, "fields", name.value<std::string>().value_or(""),
-                                                    {{"velocity", Field::velocity},
-                                                     {"pressure", Field::pressure},
-                                                     {"density", Field::density},
-                                                     {"solid_fraction", Field::solid_fraction}}));
-    }
+/// The file that a table writes: a UserError where the table is there and names none.
+std::string file_name(const Section& section, const char* key) {
+  const std::string name = section.text(key).value_or("");
+  if (section.given() && name.empty())
+    throw_user_error({section.who(), key, "missing", "name what is written", "or drop the table"});
+  return name;
+}
+
+std::vector<Field> read_fields(const Section& output) {
+  const toml::array* names = output.find("fields")->as_array();
+  if (names == nullptr || names->empty())
+    throw_user_error({output.who(), "fields", "(another value)", "be a list of names", ""});
+  std::vector<Field> fields;
+  for (const toml::node& name : *names) {
+    const std::string word = name.value<std::string>().value_or("");
+    fields.push_back(choose<Field>(output, "fields", word,
+                                   {{"velocity", Field::velocity},
+                                    {"pressure", Field::pressure},
+                                    {"density", Field::density},
+                                    {"solid_fraction", Field::solid_fraction}}));
+    if (std::count(fields.begin(), fields.end(), fields.back()) > 1)
+      throw_user_error({output.who(), "fields", word + " twice", "name each field once", ""});
   }
-  const Section restart(file, "restart", root["restart"].as_table(), {"read", "write"});
+  return fields;
+}
+
+/// No two of the files that a run writes may be one.
+void refuse_shared_files(const std::string& file, const FlowCase& flow) {
+  std::vector<std::string> names{flow.monitor_file, flow.restart_write};
+  if (flow.output) names.insert(names.end(), {flow.output->path, xdmf_beside(flow.output->path)});
+  std::set<std::string> taken;
+  for (const std::string& name : names)
+    if (!name.empty() && !taken.insert(one_name_of(name)).second)
+      throw_user_error({file, "file", name, "be written by one table only", "give each its own file"});
+}
+
+void read_files(const std::string& file, const toml::table& root, FlowCase& flow) {
+  const Section monitor(file, "monitor", root.get("monitor"), {"file", "every"});
+  flow.monitor_file = file_name(monitor, "file");
+  flow.monitor_every = monitor.positive("every").value_or(flow.time / 100);
+  const Section output(file, "output", root.get("output"), {"file", "every", "fields", "append"});
+  if (const std::string path = file_name(output, "file"); !path.empty()) {
+    flow.output.emplace();
+    flow.output->path = path;
+    flow.output->append = output.truth("append").value_or(false);
+    flow.output_every = output.positive("every").value_or(flow.time);
+    if (output.find("fields") != nullptr) flow.output->fields = read_fields(output);
+  }
+  const Section restart(file, "restart", root.get("restart"), {"read", "write"});
   flow.restart_read = restart.text("read").value_or("");
   flow.restart_write = restart.text("write").value_or("");
+  refuse_shared_files(file, flow);
 }
 
 toml::table parse(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
+    throw_user_error({"suffuse-flow", "case", path, "be a file that can be read", "check the path"});
   try {
     return toml::parse_file(path);
   } catch (const toml::parse_error& error) {
@@ -206,22 +269,25 @@ FlowCase read_flow_case(const std::string& path) {
       {"fluid", "lattice", "boundary", "force", "solids", "run", "monitor", "output", "restart"});
   FlowCase flow;
   read_lattice(path, root, flow);
-  const Section boundary(path, "boundary", root["boundary"].as_table(),
-                         {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"});
+  const Section boundary(path, "boundary", root.get("boundary"), {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"});
   for (std::size_t f = 0; f < kFaces; ++f)
     flow.faces[f] = read_face(path, boundary, name_of(static_cast<Face>(f)));
-  const Section force(path, "force", root["force"].as_table(),
-                      {"acceleration", "pressure_gradient", "frequency"});
+  const Section force(path, "force", root.get("force"), {"acceleration", "pressure_gradient", "frequency"});
   flow.acceleration = force.vector("acceleration").value_or(Vec3::Zero());
   flow.pressure_gradient = force.vector("pressure_gradient").value_or(Vec3::Zero());
-  flow.frequency = force.number("frequency").value_or(0);
+  flow.frequency = force.not_negative("frequency").value_or(0);
   read_spheres(path, root, flow);
-  const Section run(path, "run", root["run"].as_table(), {"time", "until_steady"});
-  const std::optional<double> time = run.number("time");
-  if (!time || !(*time > 0))
-    throw_user_error({run.who(), "time", time ? fmt::format("{}", *time) : "missing", "be > 0 s", ""});
+  const Section run(path, "run", root.get("run"), {"time", "until_steady"});
+  const std::optional<double> time = run.positive("time");
+  if (!time) throw_user_error({run.who(), "time", "missing", "be > 0 s", ""});
   flow.time = *time;
-  flow.until_steady = run.number("until_steady");
+  flow.until_steady = run.positive("until_steady");
+  if (flow.until_steady && *flow.until_steady >= 1)
+    run.refuse("until_steady", *flow.until_steady, "be below 1: it is a share of the mean velocity");
+  if (flow.until_steady && flow.frequency > 0)
+    throw_user_error({run.who(), "until_steady", fmt::format("{}", *flow.until_steady),
+                      "come without a frequency: a flow that swings does not become steady",
+                      "drop one of them"});
   read_files(path, root, flow);
   return flow;
 }

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "suffuse/common/error.h"
 
@@ -15,7 +17,7 @@ constexpr double kLargestMach = 0.5, kLargestDensityDifference = 0.3;
 
 void require_positive(const char* what, const std::optional<double>& value, const char* unit) {
   if (value && !(*value > 0 && std::isfinite(*value)))
-    throw_user_error({kWho, what, fmt::format("{}{}", *value, unit), "be > 0", ""});
+    throw_user_error({kWho, what, fmt::format("{}{}", *value, unit), "be > 0 and finite", ""});
 }
 
 void check_request(const UnitsRequest& r) {
@@ -25,6 +27,9 @@ void check_request(const UnitsRequest& r) {
   require_positive("timestep", r.time_step, " s");
   require_positive("mach", r.mach, "");
   require_positive("max_velocity", r.largest_velocity, " m/s");
+  if (r.pressure_difference && !std::isfinite(*r.pressure_difference))
+    throw_user_error(
+        {kWho, "pressure_difference", fmt::format("{} Pa", *r.pressure_difference), "be finite", ""});
   if (r.relaxation_time && !(*r.relaxation_time > 0.5 && std::isfinite(*r.relaxation_time)))
     throw_user_error({kWho, "relaxation_time", fmt::format("{}", *r.relaxation_time), "be > 0.5",
                       "raise viscosity or timestep"});
@@ -66,6 +71,10 @@ Units::Units(const UnitsRequest& r) : density_(r.density), viscosity_(r.viscosit
 }
 
 void Units::check() const {
+  for (const auto& [what, value, unit] : {std::tuple{"spacing", spacing_, " m"},
+                                          {"timestep", time_step_, " s"},
+                                          {"relaxation_time", relaxation_time_, ""}})
+    require_positive(what, value, unit);
   if (!(relaxation_time_ - 0.5 > 1e-5))
     throw_user_error(
         {kWho, "relaxation_time", fmt::format("{:.6f}", relaxation_time_), "be above 0.50001",
@@ -80,6 +89,10 @@ void Units::check() const {
                       fmt::format("be below {}", kLargestDensityDifference),
                       fmt::format("lower timestep to {:.2g} s or less",
                                   time_step_ * std::sqrt(0.03 / density_difference()))});
+}
+
+long Units::steps_in(double seconds) const {
+  return std::max(1L, std::lround(std::min(kMostSteps, time_to_lattice(seconds))));
 }
 
 double Units::mach() const {

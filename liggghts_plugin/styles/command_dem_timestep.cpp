@@ -84,6 +84,7 @@ void CommandDemTimestep::command(int narg, char** arg) {
   if (domain->box_exist == 0)
     throw_user_error({"dem_timestep", "simulation box", "none", "exist", "insert the grains first"});
 
+  suffuse::require_single_spheres(lmp, "dem_timestep");
   lmp->init();  // properties are looked up as a run does, and masses are those that integration will use
   const auto grains = suffuse::grain_statistics(lmp, 1);
   if (grains.count == 0)

@@ -6,24 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "comm.h"
 #include "kernels/expected_values.h"
 #include "style_support.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 
 using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 
 namespace {
 
-void write_results(const std::string& file, const std::string& case_name,
-                   const std::vector<suffuse::MeasuredValue>& values) {
-  std::ofstream out(file);
-  out << "case,quantity,value\n";
+std::string results_text(const std::string& case_name, const std::vector<suffuse::MeasuredValue>& values) {
+  std::string text = "case,quantity,value\n";
   for (const auto& value : values)
-    out << fmt::format("{},{},{:.10g}\n", case_name, value.quantity, value.value);
-  out.close();
-  if (!out) throw_user_error({"report", "write", file, "be writable", "check the folder"});
+    text += fmt::format("{},{},{:.10g}\n", case_name, value.quantity, value.value);
+  return text;
 }
 
 }  // namespace
@@ -38,7 +36,7 @@ void CommandReport::command(int narg, char** arg) {
         {"report", "values", "missing", "be given", "report EXPECTED.csv CASE values NAME VALUE ..."});
   std::vector<suffuse::MeasuredValue> measured;
   while (!reader.done()) {
-    const std::string name = reader.word("name of a quantity");
+    const std::string name = reader.keyword();
     measured.push_back({name, reader.number(name)});
   }
 
@@ -47,9 +45,16 @@ void CommandReport::command(int narg, char** arg) {
   if (!stream)
     throw_user_error({"report", "file", file, "be readable", "give its path from the folder of the run"});
   const auto expected = suffuse::read_expected_values(stream, file);
-  if (comm->me != 0) return;
   const std::string table = fmt::format("\n{} against {}\n{}\n", case_name, file,
                                         suffuse::comparison_table(measured, expected, case_name));
   suffuse::tell(lmp, table);
-  if (!results.empty()) write_results(results, case_name, measured);
+  if (results.empty()) return;
+  std::string earlier;
+  suffuse::on_first_rank("report write", world, [&] {
+    suffuse::require_writable(results, "report write");
+    earlier = suffuse::keep_earlier(results, "report write").value_or("");
+  });
+  if (!earlier.empty())
+    suffuse::tell(lmp, fmt::format("report write: note: {} of an earlier run is now {}\n", results, earlier));
+  suffuse::write_text(results, "report write", results_text(case_name, measured), world);
 }

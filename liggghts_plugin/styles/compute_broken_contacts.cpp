@@ -15,7 +15,7 @@ ComputeBrokenContacts::ComputeBrokenContacts(LAMMPS* lmp_in, int& iarg, int narg
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key != "reference") reader.unknown(key, "reference");
     const std::string kind = reader.word("reference");
     if (kind == "step")

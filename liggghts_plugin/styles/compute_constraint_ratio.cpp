@@ -28,7 +28,7 @@ ComputeConstraintRatio::ComputeConstraintRatio(LAMMPS* lmp_in, int& iarg, int na
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (!read_sliding_rule(key, reader, rule_)) reader.unknown(key, "tolerance, appendix");
   }
   need_friction();

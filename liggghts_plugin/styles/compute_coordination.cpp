@@ -12,7 +12,7 @@ ComputeCoordination::ComputeCoordination(LAMMPS* lmp_in, int& iarg, int narg, ch
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key == "split")
       split_ = read_split(reader);
     else if (key == "walls" || !read_sample_word(key, reader))

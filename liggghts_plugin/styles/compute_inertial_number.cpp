@@ -18,7 +18,7 @@ ComputeInertialNumber::ComputeInertialNumber(LAMMPS* lmp_in, int& iarg, int narg
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key == "diameter") {
       if (reader.next_is_number())
         given_diameter_ = reader.positive("diameter");

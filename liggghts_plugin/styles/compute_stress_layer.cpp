@@ -17,7 +17,7 @@ ComputeStressLayer::ComputeStressLayer(LAMMPS* lmp_in, int& iarg, int narg, char
   grid_.axis = read_axis(reader);
   grid_.layers = static_cast<int>(reader.positive_integer("number of layers"));
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key == "bounds") {
       bounds_given_ = true;
       low_ = reader.number("bounds (low)");

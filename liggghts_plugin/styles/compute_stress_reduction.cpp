@@ -22,7 +22,7 @@ ComputeStressReduction::ComputeStressReduction(LAMMPS* lmp_in, int& iarg, int na
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key == "split")
       split_ = read_split(reader);
     else if (key == "by")

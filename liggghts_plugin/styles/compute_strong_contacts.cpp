@@ -20,7 +20,7 @@ ComputeStrongContacts::ComputeStrongContacts(LAMMPS* lmp_in, int& iarg, int narg
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
   while (!reader.done()) {
-    const std::string key = reader.word("keyword");
+    const std::string key = reader.keyword();
     if (key == "axis") {
       axis_ = read_axis(reader);
     } else if (key == "threshold") {

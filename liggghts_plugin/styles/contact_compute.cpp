@@ -7,6 +7,7 @@ using namespace LAMMPS_NS;
 
 ContactCompute::ContactCompute(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : Compute(lmp_in, iarg, narg, arg), sample_(lmp_in, who()) {
+  suffuse::require_si_units(lmp, who());
   timeflag = 1;
   update_on_run_end_ = true;  // so that scripts can use the values after a run, in print or if
   FixContactSampler::of(lmp).add_user(this);
@@ -17,6 +18,7 @@ ContactCompute::~ContactCompute() {
 }
 
 void ContactCompute::init() {
+  suffuse::require_single_spheres(lmp, who());
   // Group `all` may be filled later, by insertion; any other group without grains is a slip of the pen.
   if (igroup != 0) suffuse::require_grains_in_group(lmp, who(), igroup);
   sample_.init();

@@ -77,9 +77,9 @@ FixDensityScaling::FixDensityScaling(LAMMPS* lmp_in, int narg, char** arg)
     reader.unknown(mode, "size, rayleigh");
   }
   while (!reader.done()) {
-    if (reader.accept("bound"))
+    if (reader.keyword("bound"))
       bound_ = reader.positive("bound of the inertial number");
-    else if (reader.accept("every"))
+    else if (reader.keyword("every"))
       every_ = reader.positive_integer("every");
     else
       reader.unknown(reader.word("keyword"), "bound, every");
@@ -116,6 +116,7 @@ void FixDensityScaling::pre_delete(bool unfixflag) {
 }
 
 void FixDensityScaling::init() {
+  suffuse::require_single_spheres(lmp, kWho);
   require_compatible_fixes();
   find_gravity();
   if (first_init_) require_true_masses_at_first();

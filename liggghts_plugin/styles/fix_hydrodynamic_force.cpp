@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "neighbor.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
@@ -24,6 +26,7 @@ constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader("fix hydrodynamic/force", narg, arg, 3);
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
+  suffuse::require_si_units(lmp, "fix hydrodynamic/force");
   if (atom->radius_flag == 0 || atom->torque_flag == 0)
     throw_user_error({"fix hydrodynamic/force", "atom_style", atom->atom_style, "be spheres",
                       "write `atom_style granular`"});
@@ -35,6 +38,9 @@ FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg)
   peratom_flag = 1;
   size_peratom_cols = kLoadValues;
   peratom_freq = 1;
+  scalar_flag = 1;
+  extscalar = 0;
+  restart_global = 1;
   vector_flag = 1;
   size_vector = kLoadValues;
   global_freq = 1;
@@ -57,7 +63,7 @@ FixHydrodynamicForce::~FixHydrodynamicForce() {
 }
 
 int FixHydrodynamicForce::setmask() {
-  return FixConst::POST_FORCE | FixConst::PRE_FINAL_INTEGRATE;
+  return FixConst::PRE_INITIAL_INTEGRATE | FixConst::POST_FORCE | FixConst::PRE_FINAL_INTEGRATE;
 }
 
 void FixHydrodynamicForce::post_create() {
@@ -65,6 +71,7 @@ void FixHydrodynamicForce::post_create() {
 }
 
 void FixHydrodynamicForce::init() {
+  suffuse::require_single_spheres(lmp, "fix hydrodynamic/force");
   constraints_.clear();
   for (int i = 0; i < modify->nfix; ++i)
     if (suffuse::constrains_forces(modify->fix[i]->style)) constraints_.push_back(modify->fix[i]);
@@ -73,7 +80,17 @@ void FixHydrodynamicForce::init() {
 void FixHydrodynamicForce::setup(int flag) {
   stale_ = true;
   post_force(flag);
-  pre_final_integrate();
+  setting_up_ = true;
+}
+
+void FixHydrodynamicForce::pre_initial_integrate() {
+  finish_setup();
+}
+
+/// The shares multiply the sum of all forces: once every fix has been set up, before the first half step.
+void FixHydrodynamicForce::finish_setup() {
+  if (setting_up_) pre_final_integrate();
+  setting_up_ = false;
 }
 
 FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
@@ -125,6 +142,7 @@ void FixHydrodynamicForce::pre_final_integrate() {
 }
 
 void FixHydrodynamicForce::loads_changed() {
+  finish_setup();
   const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size()));
   if (!constraints_.empty()) {
     change_constrained(owned);
@@ -193,6 +211,30 @@ double* FixHydrodynamicForce::load() {
 
 double* FixHydrodynamicForce::history() {
   return history_[0];
+}
+
+void FixHydrodynamicForce::set_fluid_time(double seconds, Fluid fluid) {
+  fluid_time_ = seconds;
+  fluid_step_ = update->ntimestep;
+  fluid_ = fluid;
+}
+
+/// Time of the fluid, s: how long it has flowed.
+double FixHydrodynamicForce::compute_scalar() {
+  if (fluid_ == Fluid::rests) return fluid_time_;
+  return fluid_time_ + static_cast<double>(update->ntimestep - fluid_step_) * update->dt;
+}
+
+void FixHydrodynamicForce::write_restart(FILE* file) {
+  if (comm->me != 0) return;
+  const double time = compute_scalar();
+  const int bytes = sizeof(time);
+  fwrite(&bytes, sizeof(bytes), 1, file);
+  fwrite(&time, sizeof(time), 1, file);
+}
+
+void FixHydrodynamicForce::restart(char* state) {
+  std::memcpy(&fluid_time_, state, sizeof(fluid_time_));
 }
 
 /// Sum of the forces (1 to 3) and torques (4 to 6) on the grains of the group.

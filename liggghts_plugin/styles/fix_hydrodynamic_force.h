@@ -36,8 +36,10 @@ class FixHydrodynamicForce : public Fix {
   void post_create() override;
   void init() override;
   void setup(int) override;
+  void pre_initial_integrate() override;
   void post_force(int) override;
   void pre_final_integrate() override;
+  double compute_scalar() override;
   double compute_vector(int n) override;
   double memory_usage() override;
 
@@ -51,6 +53,9 @@ class FixHydrodynamicForce : public Fix {
   int size_restart(int i) override;
   int maxsize_restart() override;
 
+  void write_restart(FILE* file) override;
+  void restart(char* state) override;
+
   int pack_comm(int n, int* list, double* buffer, int pbc_flag, int* pbc) override;
   void unpack_comm(int n, int first, double* buffer) override;
   int pack_reverse_comm(int n, int first, double* buffer) override;
@@ -61,6 +66,10 @@ class FixHydrodynamicForce : public Fix {
   double* history();
   /// Has a restart file given grains of this rank their values back?
   bool restored() const { return restored_; }
+
+  /// The fluid has come to this time (s) now; while it flows its time goes on with the grains' steps.
+  enum class Fluid { flows, rests };
+  void set_fluid_time(double seconds, Fluid fluid);
 
   /// Brings the forces that the next half step of integration starts with up to date with the loads.
   void loads_changed();
@@ -83,12 +92,17 @@ class FixHydrodynamicForce : public Fix {
   Addition addition(int i) const;
   void refresh_additions();
   void change_constrained(int owned);
+  void finish_setup();
 
   double** history_ = nullptr;
   std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
   bool stale_ = true;              // grains have changed places since then
+  bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
+  double fluid_time_ = 0;  // s, at the step fluid_step_
+  bigint fluid_step_ = 0;
+  Fluid fluid_ = Fluid::rests;
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts
   std::vector<double>* sum_torque_ = nullptr;
 };

@@ -73,18 +73,19 @@ double smallest_radius(LAMMPS* lmp) {
 
 FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(kWho, narg, arg, 3);
+  suffuse::require_si_units(lmp, kWho);
   while (!reader.done()) {
-    if (reader.accept("viscosity"))
+    if (reader.keyword("viscosity"))
       film_.viscosity = reader.positive("viscosity");
-    else if (reader.accept("outer"))
+    else if (reader.keyword("outer"))
       film_.outer = reader.positive("outer");
-    else if (reader.accept("inner"))
+    else if (reader.keyword("inner"))
       film_.inner = reader.positive("inner");
-    else if (reader.accept("density"))
+    else if (reader.keyword("density"))
       density_ = reader.positive("density");
-    else if (reader.accept("every"))
+    else if (reader.keyword("every"))
       every_ = static_cast<int>(std::min<std::int64_t>(reader.positive_integer("every"), 1000000));
-    else if (reader.accept("walls"))
+    else if (reader.keyword("walls"))
       read_walls(reader, walls_);
     else
       reader.unknown(reader.word("keyword"), kKeywords);
@@ -156,6 +157,7 @@ void FixLubrication::post_create() {
 }
 
 void FixLubrication::init() {
+  suffuse::require_single_spheres(lmp, kWho);
   pair_ = &suffuse::require_granular_pair_style(lmp, kWho);
   // These lists leave the distance factor out.
   if (force->newton_pair != 0)

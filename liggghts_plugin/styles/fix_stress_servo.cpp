@@ -84,6 +84,7 @@ int FixStressServo::setmask() {
 }
 
 void FixStressServo::init() {
+  suffuse::require_single_spheres(lmp, who());
   suffuse::require_periodic_box(lmp, who());
   suffuse::require_granular_pair_style(lmp, who());
   suffuse::require_grains_in_group(lmp, who(), igroup);

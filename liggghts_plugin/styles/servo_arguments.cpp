@@ -20,17 +20,24 @@ int axis_index(const std::string& who, const std::string& word) {
 
 void read_shear_path(ArgumentReader& reader, const std::string& name, servo::Settings& settings) {
   if (settings.path != servo::Path::kConstantVolume) settings.target = reader.positive("target stress");
-  bool bounds_given = false;
+  bool bounds_given = false, direction_given = false;
+  const auto set_direction = [&](int direction) {
+    if (direction_given)
+      throw_user_error(
+          {reader.who(), "direction", "compression and extension", "be one of them", "drop the other"});
+    direction_given = true;
+    settings.direction = direction;
+  };
   while (!reader.done()) {
-    if (reader.accept("axis")) {
+    if (reader.keyword("axis")) {
       settings.axis = axis_index(reader.who(), reader.word("axis"));
-    } else if (reader.accept("compression")) {
-      settings.direction = 1;
-    } else if (reader.accept("extension")) {
-      settings.direction = -1;
-    } else if (reader.accept("rate")) {
+    } else if (reader.keyword("compression")) {
+      set_direction(1);
+    } else if (reader.keyword("extension")) {
+      set_direction(-1);
+    } else if (reader.keyword("rate")) {
       settings.axial_rate = reader.positive("axial strain rate");
-    } else if (name == "cyclic" && reader.accept("deviator")) {
+    } else if (name == "cyclic" && reader.keyword("deviator")) {
       settings.deviator_low = reader.number("lower bound of the deviator");
       settings.deviator_high = reader.number("upper bound of the deviator");
       bounds_given = true;
@@ -96,7 +103,7 @@ void read_stop(ArgumentReader& reader, servo::Settings& settings) {
 }
 
 void read_option(ArgumentReader& reader, ServoArguments& arguments) {
-  const std::string key = reader.word("keyword");
+  const std::string key = reader.keyword();
   if (key == "every") {
     arguments.every = reader.positive_integer("every");
     arguments.every_given = true;

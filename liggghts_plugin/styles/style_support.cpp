@@ -54,6 +54,23 @@ bool ArgumentReader::accept(std::string_view expected) {
   return true;
 }
 
+void ArgumentReader::take_once(const std::string& word) {
+  if (!taken_.insert(word).second)
+    throw_user_error({who_, word, "given twice", "be given once", "drop one of the two"});
+}
+
+bool ArgumentReader::keyword(std::string_view expected) {
+  if (!accept(expected)) return false;
+  take_once(std::string(expected));
+  return true;
+}
+
+std::string ArgumentReader::keyword() {
+  const std::string given = word("keyword");
+  take_once(given);
+  return given;
+}
+
 bool ArgumentReader::next_is_number() const {
   double value = 0;
   return !done() && parse_number(arg_[next_], value);
@@ -155,6 +172,14 @@ void require_si_units(LAMMPS* lmp, std::string_view who) {
   if (std::strcmp(lmp->update->unit_style, "si") == 0) return;
   throw_user_error(
       {std::string(who), "units", lmp->update->unit_style, "be si", "write `units si` and SI values"});
+}
+
+void require_single_spheres(LAMMPS* lmp, std::string_view who) {
+  for (int i = 0; i < lmp->modify->nfix; ++i)
+    if (std::strncmp(lmp->modify->fix[i]->style, "multisphere", 11) == 0)
+      throw_user_error({std::string(who), "fix", lmp->modify->fix[i]->style,
+                        "not be defined: spheres of a clump would count as grains of their own",
+                        "use single spheres (`fix nve/sphere`), or leave this style out"});
 }
 
 bool grains_have_friction(LAMMPS* lmp) {

@@ -4,6 +4,8 @@
 // LIGGGHTS look-ups that several styles need.
 
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,6 +33,12 @@ class ArgumentReader {
   /// True, and the word is consumed, if the next word is `expected`.
   bool accept(std::string_view expected);
 
+  /// The same for a word that a line may have once: a UserError at the second time.
+  bool keyword(std::string_view expected);
+
+  /// The next word, a keyword that a line may have once.
+  std::string keyword();
+
   /// True if the next word reads as a number.
   bool next_is_number() const;
 
@@ -45,9 +53,12 @@ class ArgumentReader {
 
  private:
   std::string who_;
+  void take_once(const std::string& word);
+
   int narg_;
   char** arg_;
   int next_;
+  std::set<std::string, std::less<>> taken_;
 };
 
 /// Text for the person who runs the script, as it stands: on the screen and in the log, once for all ranks.
@@ -72,6 +83,9 @@ void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
 /// Throws unless the script has `units si`: our formulas and defaults are SI's.
 void require_si_units(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+
+/// Throws where a fix of the script makes clumps of spheres: what `who` computes is that of single spheres.
+void require_single_spheres(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
 /// Does any pair of types have a coefficient of friction above 0? Not where the script defines none.
 bool grains_have_friction(LAMMPS_NS::LAMMPS* lmp);

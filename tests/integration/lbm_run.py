@@ -50,6 +50,11 @@ def check_ranks(program):
             screen = Program(program.suffuse, program.mpirun, ranks).must_run(text, folder, timeout=300)
             states.append(positions(path / "grains.dump"))
             check_output(path, screen, columns(path / "flow.csv"))
+        if len(states) > 1:  # the second run has kept what the first one left
+            for name in ("flow.csv", "bed.h5", "bed.xdmf", "bed_grains.h5", "bed_grains.xdmf"):
+                expect(f"note: {name} of an earlier run is now {name}.before" in screen and (path / f"{name}.before").exists(),
+                       f"{name} of the first run is gone without a word")
+            expect(len(columns(path / "flow.csv.before")["time_s"]) == 12, "flow.csv.before is not whole")
     one, many = states[0], states[-1]
     expect(len(one) == 40 and one.keys() == many.keys(), f"{len(one)} and {len(many)} grains")
     largest = max(abs(a - b) for grain in one for a, b in zip(one[grain][:3], many[grain][:3]))
@@ -65,6 +70,30 @@ def check_drag_note(program):
         for collision, said in (("trt", True), ("trt_comoving", False)):
             screen = program.must_run(wet_box() + WATER + f"lbm collision {collision}\nlbm run 4e-3\n", folder)
             expect((note in screen) == said, f"with {collision}: {screen[-600:]}")
+
+
+def check_closed_box(program):
+    """Water that grains stir in a closed box: none comes in, and its balance of mass is nothing but round-off."""
+    for axis in "zx":  # across walls, and across periodic faces
+        with scratch() as folder:
+            program.must_run(wet_box() + WATER + f"lbm monitor m every 1e-3 file m.csv axis {axis} mass discharge\nlbm run 6e-3\n", folder)
+            series = columns(pathlib.Path(folder) / "m.csv")
+        stirred = max(abs(flux) for flux in series[f"discharge_{axis}lo_m3_per_s"]) * 1000 * 6e-3
+        balance = max(abs(value) for value in series["mass_balance_kg"])
+        # Fluxes through the first and last plane of cells are no inflow; they would make 1e-9 kg of it.
+        expect(balance < 1e-9 * stirred, f"across {axis}: {balance} kg of {stirred} kg stirred")
+
+
+def check_lost_flow(program):
+    """An inflow that becomes too fast ends the run before a row of it is written."""
+    rising = "variable fast equal 0.2*step*dt/4e-3\nlbm boundary zlo velocity 0 0 v_fast zhi pressure 0\n"
+    monitor = "lbm monitor m every 2e-5 file m.csv extremes\n"
+    with scratch() as folder:
+        code, screen = program.run(wet_box(grains=0) + WATER + rising + monitor + "lbm run 1\n", folder)
+        expect(code == 1 and "Mach number" in screen, f"the run ended with {code}: {screen[-600:]}")
+        mach = columns(pathlib.Path(folder) / "m.csv")["largest_mach"]
+        # The inlet gains 0.0018 of Mach between two samples.
+        expect(0.28 < mach[-1] <= 0.3, f"the last rows have Mach numbers {mach[-3:]}")
 
 
 def check_output(folder, screen, series):
@@ -113,6 +142,61 @@ def check_restart(program):
     expect(not different, f"{len(different)} grains differ, first {whole[different[0]]} {second[different[0]]}" if different else "")
 
 
+def check_time_over_restart(program):
+    """A head that follows the water's time, in a run that is continued with another DEM step: the same head at every time,
+    the end where it was to be, and the same flow but for the integration of the grains' motion."""
+    water = WATER + "variable head equal 5*f_hydrodynamic_force/4e-3\nlbm boundary zlo pressure v_head zhi pressure 0\n" \
+        "variable liggghts equal step*dt\n" \
+        "lbm monitor m every 1e-4 file m.csv v_head as head_pa v_liggghts as step_times_dt superficial_velocity\n"
+    with scratch() as folder:
+        path = pathlib.Path(folder)
+        Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
+        program.must_run(wet_box(restart="start") + water + "lbm run 2e-3\nlbm restart write half.h5\nlbm run until 4e-3\n", folder)
+        whole = columns(path / "m.csv")
+        slower = wet_box(restart="half.h5.grains").replace("timestep 1e-6", "timestep 4e-7")
+        expect("timestep 4e-7" in slower, "the scene's step is another one")
+        screen = program.must_run(slower + 'print "water at $(f_hydrodynamic_force) s"\n' + water +
+                                  "lbm restart read half.h5\nlbm run until 4e-3\nlbm run until 1e-3\n"
+                                  'print "then at $(f_hydrodynamic_force) s"\n', folder)
+        both = columns(path / "m.csv")
+    step = 1.25e-4 ** 2 * 0.015 / 3 / 1e-6  # of the fluid, s
+    said = [float(word) for word in re.findall(r"water at (\S+) s", screen)] + \
+        [float(word) for word in re.findall(r"then at (\S+) s", screen)]
+    expect(len(said) == 2 and abs(said[0] - 2e-3) < step and abs(said[1] - 4e-3) < step, f"the script reads times {said}")
+    expect("the fluid is at 0.00398438 s already" in screen, f"a time that has passed is run again:\n{screen[-1500:]}")
+    expect(whole["time_s"] == both["time_s"] and len(both["time_s"]) > 38, f"{len(whole['time_s'])}, {len(both['time_s'])} rows")
+    for time, head in zip(both["time_s"], both["head_pa"]):
+        expect(abs(head - 5 * time / 4e-3) < 1e-9, f"head {head} Pa at {time} s")
+    jump = max(abs(b - t) for b, t in zip(both["step_times_dt"], both["time_s"]))
+    expect(jump > 0.5e-3, f"the DEM's step was to differ: step*dt is within {jump} s of the water's time")
+    # Velocity-Verlet's error of the falling grains at either step is far below this.
+    one, two = (series["superficial_velocity_z_m_per_s"][-1] for series in (whole, both))
+    expect(abs(one / two - 1) < 1e-3, f"flow {one} and {two} m/s")
+
+
+def check_plan_of_graded_bed(program):
+    """A plan's error is that of the finest tenth of the surface: fines of two cells make a bed of coarse grains of eight
+    cells err by a fifth, and two lone fine grains do not."""
+    def plan(fines):
+        coarse = [(x, y, z) for x in (1, 3) for y in (1, 3) for z in (1, 2.5, 4)]
+        places = [(0.2 + 0.4 * (n % 10), 0.15 + 0.4 * (n // 10 % 10), 4.8 - 0.4 * (n // 100)) for n in range(fines)]
+        atoms = "".join(f"create_atoms {kind} single {x}e-3 {y}e-3 {z}e-3\n" for kind, all_ in ((1, coarse), (2, places)) for x, y, z in all_)
+        box = wet_box(grains=0).replace("create_box 1 box", "create_box 2 box").replace("peratomtypepair 1", "peratomtypepair 2")
+        for name, value in (("youngsModulus", "7e8"), ("poissonsRatio", "0.3")):
+            box = box.replace(f"{name} peratomtype {value}", f"{name} peratomtype {value} {value}")
+        for name, value in (("coefficientRestitution", "0.7"), ("coefficientFriction", "0.3")):
+            box = box.replace(f"{name} peratomtypepair 2 {value}", f"{name} peratomtypepair 2 {value} {value} {value} {value}")
+        sizes = "set type 1 diameter 1e-3 density 2650\nset type 2 diameter 0.25e-3 density 2650\n"
+        with scratch() as folder:
+            return program.must_run(box + atoms + sizes + WATER + "lbm plan 0.1\n", folder)
+
+    screen = plan(200)
+    expect("about 21 % (worst packing tried: 37 %), by the 2 cells" in screen, f"fines of two cells: {screen[-1500:]}")
+    expect("lbm plan: note: the smallest grains have 2 cells per diameter" in screen, f"no note: {screen[-1500:]}")
+    # 12 coarse grains of 1 mm2 pi each; two of a sixteenth: a hundredth of the surface. Sizes are in classes of 3 %.
+    expect("about 1 % (worst packing tried: 2 %), by the 7.8 cells" in plan(2), f"two lone grains: {plan(2)[-1500:]}")
+
+
 def check_steady_and_grains(program):
     """Until steady; water without grains; grains inserted and deleted between runs leave no solids behind."""
     empty = wet_box(grains=0) + WATER + "lbm boundary zlo pressure 0.1 zhi pressure 0\n" + \
@@ -140,7 +224,11 @@ def main():
     program = program_from_command_line(__doc__)
     largest = check_ranks(program)
     check_drag_note(program)
+    check_closed_box(program)
+    check_lost_flow(program)
     check_restart(program)
+    check_time_over_restart(program)
+    check_plan_of_graded_bed(program)
     check_steady_and_grains(program)
     print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
 

@@ -38,7 +38,8 @@ def main(program, mpirun, folder):
     def run(name, time, restart="", ranks=2, text=None):
         case = folder / f"{name}.toml"
         case.write_text(text or CASE.format(name=name, time=time, restart=restart))
-        return subprocess.run([mpirun, str(ranks), program, str(case)], cwd=folder, capture_output=True, text=True)
+        start = [mpirun, str(ranks)] if ranks > 1 else []
+        return subprocess.run([*start, program, str(case)], cwd=folder, capture_output=True, text=True)
 
     def last_row(name):
         return (folder / f"{name}.csv").read_text().split("\n")[-2].split(",")
@@ -68,12 +69,62 @@ def main(program, mpirun, folder):
         (('zhi = { kind = "pressure", value = 0 }', 'zhi = "periodic"'), "must be periodic"),
         (("viscosity = 1e-6", 'viscosity = "water"'), "must be a number"),
         (("[run]", "[run"), "line"),
+        (("\ntime = 1", "\ntime = 1e30"), "must be at most 1e+15 steps"),
+        (("\ntime = 1", "\ntime = inf"), "time = inf, must be finite"),
+        (("\ntime = 1", "\ntime = 0"), "time = 0, must be > 0"),
+        (("\ntime = 1", "\ntime = 1\nuntil_steady = nan"), "until_steady = nan, must be finite"),
+        (("\ntime = 1", "\ntime = 1\nuntil_steady = 0"), "until_steady = 0, must be > 0"),
+        (("\ntime = 1", "\ntime = 1\nuntil_steady = 2"), "until_steady = 2, must be below 1"),
+        (("\ntime = 1", "\ntime = 1\nuntil_steady = 1e-3\n[force]\nfrequency = 2"), "swings"),
+        (("every = 0.5", "every = nan"), "[monitor]: every = nan, must be finite"),
+        (("every = 0.5", "every = 0"), "[monitor]: every = 0, must be > 0"),
+        (("every = 1", "every = -1"), "[output]: every = -1, must be > 0"),
+        (("every = 1", 'every = 1\nfields = ["velocity", "velocity"]'), "velocity twice"),
+        (("ramp = 0.2", "ramp = -0.2"), "ramp = -0.2, must be >= 0"),
+        (("ramp = 0.2", "ramp = nan"), "ramp = nan, must be finite"),
+        (('kind = "pressure", value = 0 ', 'kind = "pressure", value = inf '), "value = inf, must be finite"),
+        (('kind = "pressure", value = 0 ', 'kind = "pressure" '), "come with a value"),
+        (('xhi = "noslip"', 'xhi = { kind = "noslip", value = 1 }'), "come without value"),
+        (("[run]", "[force]\nfrequency = -2\n[run]"), "frequency = -2, must be >= 0"),
+        (("[run]", "[force]\nacceleration = [0, 0, nan]\n[run]"), "must be three finite numbers"),
+        (("[run]", "[solids]\nspheres = [[0, 0, 0, inf]]\n[run]"), "finite, with a radius > 0"),
+        (("[run]", "[solids]\nspheres = [[1, 0, 0, 1e-4]]\n[run]"), "must hold the centre of a cell"),
+        (("size = [0.0016,", "size = [inf,"), "must be three finite numbers"),
+        (("viscosity = 1e-6", "viscosity = -1e-6"), "viscosity = -1e-06, must be > 0"),
+        (("viscosity = 1e-6", "viscosity = 1e-6\ndensity = nan"), "density = nan, must be finite"),
+        (("spacing = 1e-4", "spacing = 1e-4\npressure_difference = nan"), "pressure_difference = nan"),
+        (("spacing = 1e-4", 'spacing = 1e-4\ncollision = "bgk"\nmagic = 0.2'), "go with trt"),
+        (("spacing = 1e-4", "spacing = 1e-4\nmagic = -1"), "magic = -1, must be > 0"),
+        (("spacing = 1e-4", "spacing = 1e-4\nsmagorinsky = nan"), "smagorinsky = nan, must be finite"),
+        (("[fluid]\nviscosity = 1e-6", "fluid = 3"), "must be a table"),
+        (('file = "bad.csv"', ""), "[monitor]: file = missing"),
+        (('file = "bad.csv"', 'file = "bad.xdmf"'), "bad.xdmf, must be written by one table only"),
+        (("[restart]", '[restart]\nwrite = "/dev/null"'), "must be a regular file"),
+        (("[restart]", '[restart]\nwrite = "nowhere/state.h5"'), "must be writable"),
+        (("viscosity = 1e-6", "viscosity = 1e-6\nviscosity = 2e-6"), "line"),
     ]:
         assert change[0] in good, change
-        bad = run("bad", 1, text=good.replace(*change))
+        ranks = 2 if "nosli" in change[1] else 1  # starting two takes a second
+        bad = run("bad", 1, ranks=ranks, text=good.replace(*change, 1))
         said = [line for line in bad.stderr.split("\n") if line.startswith("suffuse-flow: ")]
         assert bad.returncode == 1 and len(said) == 1 and message in said[0], (change, bad.returncode, bad.stderr)
         assert not (folder / "bad.csv").exists(), "something was written before the input was checked"
+    for path in (folder / "absent.toml", folder):
+        bad = subprocess.run([program, str(path)], cwd=folder, capture_output=True, text=True)
+        assert bad.returncode == 1 and str(path) in bad.stderr and "line 0" not in bad.stderr, (path, bad.stderr)
+
+    # The duct's slowest mode dies with W^2/(2 pi^2 nu) = 0.13 s: in a tenth of 0.2 s the flow still changes; of 6 s, the
+    # second tenth changes it by exp(-4.6) and the third by exp(-9).
+    steady = good.replace(", ramp = 0.2", "").replace("every = 0.5", "every = 0.02")
+    short = run("short", 0, text=steady.replace("\ntime = 1", "\ntime = 0.2\nuntil_steady = 1e-3"))
+    assert short.returncode == 3 and "not yet steady after 0.2 s" in short.stdout, short
+    long = run("long", 0, text=steady.replace("\ntime = 1", "\ntime = 6\nuntil_steady = 1e-3"))
+    assert long.returncode == 0 and "\nsteady after 1.8 s" in long.stdout, long
+    # What the first of the two left is kept.
+    assert "bad.csv of an earlier run is now bad.csv.before" in long.stdout, long.stdout
+    times = [float(row.split(",")[0]) for row in (folder / "bad.csv.before").read_text().split("\n")[1:-1]]
+    assert len(times) == 11 and abs(times[-1] - 0.2) < 1e-9, times
+    assert all((folder / name).exists() for name in ("bad.h5", "bad.h5.before", "bad.xdmf.before"))
     print("velocity / series:", velocity / series)
 
 

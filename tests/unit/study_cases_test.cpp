@@ -7,12 +7,12 @@
 #include <functional>
 
 #include "suffuse/analysis/csv_cell.h"
-#include "suffuse/analysis/script_variables.h"
 #include "suffuse/analysis/study_cases.h"
 #include "suffuse/analysis/study_record.h"
 #include "suffuse/analysis/study_table.h"
 #include "suffuse/analysis/trade_off.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/script_variables.h"
 #include "user_error_message.h"
 
 using namespace suffuse;
@@ -171,6 +171,21 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
         }).find("used by in.scene; it has case, tau, speed") != std::string::npos);
   CHECK(message_of([&] { variables.require("d", "x"); }).find("`variable d index VALUE`") !=
         std::string::npos);
+  // A folder that is not known may hold a file that uses the name.
+  CHECK_NOTHROW(variables.require_known("unseen", "x"));
+  const ScriptVariables all(script, "x", {{"output", scratch.path.string()}});
+  CHECK_NOTHROW(all.require_known("d", "x"));
+  CHECK(message_of([&] {
+          all.require_known("unseen", "x");
+        }).find("variable = unseen, must be used by in.scene") != std::string::npos);
+  CHECK(message_of([&] { all.require_known("a(", "x"); }) != "");
+  scratch.write("made_by_the_run.inc", "print \"${unseen}\"\n");
+  CHECK_NOTHROW(
+      ScriptVariables(script, "x", {{"output", scratch.path.string()}}).require_known("unseen", "x"));
+  const std::string in_branch =
+      scratch.write("in.branch", "if \"1 > 0\" then \"include ${script_folder}/other.inc\"\n");
+  CHECK_NOTHROW(ScriptVariables(in_branch, "x").require_known("unseen", "x"));
+  CHECK(message_of([&] { ScriptVariables(in_branch, "x").require_known("case", "x"); }) != "");
   const std::string before = variables.fingerprint();
   scratch.write("case_B.inc", "variable speed index 2\n");
   CHECK(ScriptVariables(script, "x").fingerprint() != before);

@@ -200,6 +200,36 @@ def check_hostile(program):
     (folder / "loop").unlink()
 
 
+def check_numbers(program):
+    """Every option that takes a number takes a finite one, in every subcommand; what does not apply is not passed over; no input
+    without an end is read."""
+    (program.folder / "soil.csv").write_text("sieve_mm,percent_passing\n0.1,0\n0.2,20\n1,25\n2,100\n")
+    (program.folder / "noise.csv").write_bytes(bytes(range(256)) * 4)
+    asked = 0
+    for command in ("contacts", "grading", "sample", "constriction", "hydraulic", "fluidisation", "rose", "verdict"):
+        for line in program.must_run(command, "--help").splitlines():
+            words = line.split()
+            if len(words) < 2 or not words[0].startswith("--") or words[1].split("=")[0] not in ("FLOAT", "INT", "UINT"):
+                continue
+            option, count = words[0].split(",")[0], int(words[words.index("x") + 1]) if "x" in words[2:4] else 1
+            for value in ("nan", "inf", "1e999", "", "0x10"):
+                program.must_refuse([command, "soil.csv", option, *[value] * count], option, "must be a finite number")
+                asked += 1
+    check(asked > 150, f"only {asked} numbers were tried")
+    for words, told in ((["contacts", "c.dump", "g.dump", "--volume", "0"], ("--volume", "> 0")),
+                        (["contacts", "c.dump", "g.dump", "--sliding-tolerance", "-1"], ("--sliding-tolerance", ">= 0")),
+                        (["sample", "soil.csv", "--seed", "-1"], ("--seed", ">= 0")), (["sample", "soil.csv", "--scale", "1e300"], ("--scale", "grains of")),
+                        (["sample", "soil.csv", "--grains", "100", "--box-edge", "1e6"], ("--box-edge", "millionth")), (["sample", "soil.csv", "--output", ""], ("--output", "names")),
+                        (["constriction", "soil.csv", "--coarser-than", "1e-4"], ("--coarser-than", "--packing")),
+                        (["fluidisation", "soil.csv", "--friction", "0.2"], ("--friction", "--dumps")), (["verdict", "soil.csv", "--volume", "1"], ("--volume", "--sample")),
+                        (["verdict", "soil.csv", "--gravity", "-1"], ("--gravity", "> 0")), (["grading", "/dev/zero"], ("/dev/zero", "device")),
+                        (["contacts", "/dev/zero"], ("/dev/zero", "device")), (["grading", "noise.csv"], ("noise.csv",))):
+        program.must_refuse(words, *told)
+    program.must_run("sample", "soil.csv", "--grains", "100", "--output", "made")
+    program.must_refuse(["sample", "soil.csv", "--grains", "100", "--output", "made"], "made.inc", "--overwrite")
+    program.must_run("sample", "soil.csv", "--grains", "100", "--output", "made", "--overwrite")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--analyse", required=True)
@@ -218,6 +248,7 @@ def main():
         check_mistakes(program)
         check_hostile(program)
         check_split_by_share(program)
+        check_numbers(program)
         check_reproduce(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
 

@@ -8,6 +8,9 @@
 
 namespace suffuse::analysis {
 
+/// Throws UserError for a device in a file's place: it may never end.
+void require_an_end(const std::string& path, const std::string& who);
+
 /// A text file, plain or gzip (told by its first bytes), read line by line through one large buffer.
 class TextInput {
  public:

@@ -21,6 +21,9 @@ struct FieldOutputSettings {
   std::function<double(const Index3& cell)> solid_fraction;
 };
 
+/// The name of the XDMF file of an HDF5 file.
+std::string xdmf_beside(const std::string& path);
+
 /// A time series of fields on the cells, in SI: velocity (m/s), pressure (Pa above the reference), density
 /// (kg/m^3), solid fraction (-). Each snapshot is a group /step_NNNNNNNNNNNN of the HDF5 file, written by all
 /// ranks together in float; ParaView opens the XDMF file. After each snapshot both files are complete: a run

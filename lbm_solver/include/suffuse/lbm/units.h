@@ -44,6 +44,9 @@ class Units {
   double length_to_lattice(double metres) const { return metres / spacing_; }
   double time_to_lattice(double seconds) const { return seconds / time_step_; }
   double time_to_si(double steps) const { return steps * time_step_; }
+  /// An interval of so many seconds > 0, rounded to whole steps: one at least, and kMostSteps at most.
+  long steps_in(double seconds) const;
+  static constexpr double kMostSteps = 1e15;  ///< no run gets there
   double velocity_to_lattice(double si) const { return si * time_step_ / spacing_; }
   double velocity_to_si(double lattice) const { return lattice * spacing_ / time_step_; }
   Vec3 velocity_to_lattice(const Vec3& si) const { return si * (time_step_ / spacing_); }

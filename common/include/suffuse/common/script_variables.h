@@ -1,21 +1,27 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
-namespace suffuse::analysis {
+namespace suffuse {
 
 /// What a LIGGGHTS script and the files that it includes say about variables that `-var NAME VALUE` may set.
 class ScriptVariables {
  public:
   /// Reads the script and, of its `include` lines, the files that are there: ${script_folder} is the script's
-  /// folder, other variables in a file's name stand for any text. Throws UserError where the script cannot be
-  /// read; `who` begins the message.
-  ScriptVariables(const std::string& script, const std::string& who);
+  /// folder, variables in a folder's name have their value of `given` (-var) or the first of their `index`
+  /// line, and those in a file's name stand for any text. Throws UserError where the script cannot be read;
+  /// `who` begins the message.
+  ScriptVariables(const std::string& script, const std::string& who,
+                  const std::map<std::string, std::string>& given = {});
 
   /// Throws UserError where the script does not use the variable, or sets it itself in a way that -var cannot
   /// change (variable NAME equal ...).
   void require(const std::string& name, const std::string& who) const;
+  /// Throws UserError where the variable's name stands nowhere, neither used nor set, although all that is
+  /// included was found: -var would change nothing. Names the nearest of those that -var can set.
+  void require_known(const std::string& name, const std::string& who) const;
   /// Of the script and all that it includes: changes where any of them does (FNV-1a, 16 hexadecimal digits).
   std::string fingerprint() const;
 
@@ -23,12 +29,16 @@ class ScriptVariables {
   void read(const std::string& file);
   void note_definition(const std::string& line);
   void include(const std::string& words);
+  std::string folder_of(const std::string& name) const;
+  bool uses(const std::string& name) const;
 
   std::string script_, folder_, text_;
   std::vector<std::string> files_, settable_, set_by_script_;
+  std::map<std::string, std::string> values_;  ///< of variables in folders' names
+  bool all_found_ = true;                      ///< no file is included from a folder that is not known
 };
 
 /// FNV-1a, 64 bits, as 16 hexadecimal digits.
 std::string fingerprint_of(const std::string& text);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse

@@ -1,4 +1,4 @@
-#include "suffuse/analysis/script_variables.h"
+#include "suffuse/common/script_variables.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "suffuse/common/error.h"
 
-namespace suffuse::analysis {
+namespace suffuse {
 namespace {
 
 namespace files = std::filesystem;
@@ -51,8 +51,10 @@ std::string fingerprint_of(const std::string& text) {
   return fmt::format("{:016x}", hash);
 }
 
-ScriptVariables::ScriptVariables(const std::string& script, const std::string& who)
-    : script_(script), folder_(files::path(script).parent_path().string()) {
+ScriptVariables::ScriptVariables(const std::string& script, const std::string& who,
+                                 const std::map<std::string, std::string>& given)
+    : script_(script), folder_(files::path(script).parent_path().string()), values_(given) {
+  values_.insert_or_assign("script_folder", folder_.empty() ? "." : folder_);
   read(script);
   if (files_.empty())
     throw_user_error({who, "script", script, "be readable", "check the path and the permissions"});
@@ -65,28 +67,28 @@ void ScriptVariables::read(const std::string& file) {
   files_.push_back(path);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   text_ += text + '\n';
+  static const std::regex other_file(R"(\b(?:include|jump)\s+["']?([^\s"']+))");  // in `if ... then` too
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
     note_definition(line.substr(0, line.find('#')));
-    std::istringstream words(line);
-    std::string command, name;
-    if (words >> command >> name && command == "include") include(name);
+    for (std::sregex_iterator found(line.begin(), line.end(), other_file), end; found != end; ++found)
+      if ((*found)[1] != "SELF") include((*found)[1]);
   }
 }
 
 void ScriptVariables::note_definition(const std::string& line) {
-  static const std::regex definition(R"(\bvariable\s+(\w+)\s+(\w+))");
+  static const std::regex definition(R"(\bvariable\s+(\w+)\s+(\w+)(?:\s+([^\s"']+))?)");
   std::smatch found;
   if (!std::regex_search(line, found, definition)) return;
   const bool kept = std::find(std::begin(kKept), std::end(kKept), found[2].str()) != std::end(kKept);
+  if (kept && found[3].matched) values_.emplace(found[1], found[3]);
   if (kept || found[2] != "delete") add(kept ? settable_ : set_by_script_, found[1]);
 }
 
 void ScriptVariables::include(const std::string& words) {
-  std::string name = words;
-  if (const std::size_t at = name.find("${script_folder}"); at != name.npos) name.replace(at, 16, folder_);
-  const files::path path(name);
-  const files::path folder = path.parent_path();
+  const files::path path(words);
+  const files::path folder = folder_of(path.parent_path().string());
+  if (folder.string().find('$') != std::string::npos) all_found_ = false;
   if (!files::is_directory(folder)) return;  // made during the run
   std::vector<std::string> fitting;
   const std::regex pattern = pattern_of(path.filename().string());
@@ -97,6 +99,30 @@ void ScriptVariables::include(const std::string& words) {
   for (const std::string& file : fitting) read(file);
 }
 
+std::string ScriptVariables::folder_of(const std::string& name) const {
+  std::string folder = name.empty() ? "." : name;
+  for (const auto& [variable, value] : values_) {
+    const std::string word = "${" + variable + "}";
+    for (std::size_t at = folder.find(word); at != folder.npos; at = folder.find(word, at + value.size()))
+      folder.replace(at, word.size(), value);
+  }
+  return folder;
+}
+
+bool ScriptVariables::uses(const std::string& name) const {
+  if (!std::regex_match(name, std::regex("\\w+"))) return false;
+  return text_.find("${" + name + "}") != text_.npos ||
+         (name.size() == 1 && text_.find('$' + name) != text_.npos) ||
+         std::regex_search(text_, std::regex("\\b(v_|variable\\s+|next\\s+)" + name + "\\b"));
+}
+
+void ScriptVariables::require_known(const std::string& name, const std::string& who) const {
+  if (!all_found_ || uses(name)) return;
+  throw_user_error({who, "variable", name,
+                    "be used by " + files::path(script_).filename().string() + " or a file that it includes",
+                    fmt::format("it has {}", fmt::join(settable_, ", "))});
+}
+
 void ScriptVariables::require(const std::string& name, const std::string& who) const {
   if (contains(settable_, name)) return;
   const std::string script = files::path(script_).filename().string();
@@ -104,9 +130,7 @@ void ScriptVariables::require(const std::string& name, const std::string& who) c
     throw_user_error(
         {who, "variable", name, "be one that -var can set",
          fmt::format("{} sets it itself; make that line `variable {} index VALUE`", script, name)});
-  const bool used = text_.find("${" + name + "}") != text_.npos ||
-                    std::regex_search(text_, std::regex("\\bv_" + name + "\\b"));
-  if (!used)
+  if (!uses(name))
     throw_user_error({who, "variable", name, "be used by " + script,
                       fmt::format("it has {}", fmt::join(settable_, ", "))});
 }
@@ -115,4 +139,4 @@ std::string ScriptVariables::fingerprint() const {
   return fingerprint_of(text_);
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse
