@@ -76,6 +76,7 @@ def check_plan(campaign):
     """All of chapters 4 and 5: 27 rows of the one table, ten of the other, five of which are in both."""
     screen, code = campaign.run("--dry-run", "--quiet")
     expect(code == 0, screen)
+    expect("A30_dense_32452867" in screen and "core hours" in screen, f"no cost by sample:\n{screen}")
     jobs = dict(line.split()[:2] for line in screen.splitlines() if line.split()[1:2] and line.split()[1].isdigit())
     expect(jobs.get("equilibrate") == "32" and jobs.get("shear") == "10" and jobs.get("analyse") == "32", f"{jobs}")
 
