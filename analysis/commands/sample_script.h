@@ -18,8 +18,9 @@ struct SampleScript {
 };
 
 /// LIGGGHTS variables, each of which `-var` on the command line overrides: sample_name, sample_grains,
-/// coarse_grains, split, fines_share, box_edge, smallest_diameter, largest_diameter, skin; and row_table_4_1
-/// and row_table_5_1, lines for a file sample.toml (sample_folder.h) with the names in the thesis's tables or
+/// coarse_grains, split, fines_share, box_edge, smallest_diameter, largest_diameter, sauter_diameter (m, the
+/// size of equal surface per volume), solid_volume (m³, of all grains), skin; and row_table_4_1 and
+/// row_table_5_1, lines for a file sample.toml (sample_folder.h) with the names in the thesis's tables or
 /// "none".
 void write_sample_variables(SafeFile& file, const SampleScript& script);
 

@@ -6,8 +6,10 @@ stresses that they impose; the isotropic one goes on from its restart file, and 
 (the program $SUFFUSE_ANALYSE) with the numbers that the run had.
 """
 import csv
+import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -36,7 +38,7 @@ def check_reproduction(folder, values):
     # The dump's box has six digits: up to 5e-6 of each side, 1.5e-5 of the volume, and (1 - n)/n = 4 times that of the porosity.
     for name, relative in (("porosity", 1e-4), ("coordination_number", 1e-9), ("alpha_pair_halves", 3e-5), ("alpha_contact_point", 3e-5), ("mean_stress", 3e-5)):
         near(values, name, float(rows[name if name in rows else name + "_pa"]["measured"]), relative)
-    expect(rows["alpha_pair_halves"]["thesis"] == "1.789" and rows["porosity"]["state"] == "dense", f"another row: {rows}")
+    expect(rows["alpha_finest_fraction"]["thesis"] == "1.789" and rows["alpha_pair_halves"]["thesis"] == "" and rows["porosity"]["state"] == "dense", f"another row: {rows}")
 
 
 def grains_of(path):
@@ -80,6 +82,17 @@ def check_own_grading(run, folder):
     expect(len(classes) == 20 and all(abs(float(row["mass_fraction"]) - 0.05) < 1e-9 for row in classes), "twenty classes of equal mass")
 
 
+def check_own_column(run, folder):
+    """Scene 03 with a sieve curve: a column of 5 cells per Sauter diameter, as wide as the bed is high."""
+    (folder / "soil.csv").write_text("sieve_mm,percent_passing\n1.0,100\n0.71,82\n0.5,55\n0.355,25\n0.3,0\n")
+    screen = run("03_fluidisation/in.fluidisation", folder / "column", scale="own", grading=folder / "soil.csv", grains=150, drive="plan", settle_time=0.03,
+                 rest_time=1e-3, ramp_time=0.1)
+    found = re.search(r"lbm plan: .*? (\d+) x (\d+) x (\d+) cells", screen) or re.search(r"(\d+) x (\d+) x (\d+) cells", screen)
+    across, _, up = map(int, found.groups())
+    expect(up == math.ceil(3.4 * across), f"{found.group(0)}: not 3.4 times as high as wide")
+    expect("Sauter mean 5" in screen or "Sauter mean 4.9" in screen, "not five cells per Sauter diameter")
+
+
 def main():
     program = program_from_command_line(__doc__)
 
@@ -120,6 +133,11 @@ def main():
 
         run("08_triaxial/in.triaxial", folder / "triaxial", grains=100, cell_pressure="50e3", axial_strain=0.01)
         near(results(folder / "triaxial" / "triaxial_result.csv"), "lateral_stress", 50e3, 0.01)
+        for path in ("extension", "cyclic"):
+            run("08_triaxial/in.triaxial", folder / path, grains=100, cell_pressure="50e3", axial_strain=0.01, path=path, cycles=1, insertion_seed=7)
+        near(results(folder / "extension" / "triaxial_result.csv"), "axial_strain", -0.01, 0.01)
+        near(results(folder / "cyclic" / "triaxial_result.csv"), "cycles", 1, 1e-9)
+        check_own_column(run, folder)
         print(f"{program.ranks} ranks: the input scripts run to their ends")
 
 
