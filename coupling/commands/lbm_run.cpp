@@ -48,8 +48,8 @@ void LbmRun::say(const std::string& line) const {
 
 void LbmRun::set_values() {
   simulation_.set_faces(faces_now(settings_, simulation_.units(), lmp_));
-  simulation_.set_gravity(settings_.gravity.now(lmp_));
-  simulation_.set_pressure_gradient(settings_.pressure_gradient.now(lmp_));
+  simulation_.set_gravity(gravity_now(settings_, simulation_.units(), lmp_));
+  simulation_.set_pressure_gradient(pressure_gradient_now(settings_, simulation_.units(), lmp_));
 }
 
 void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {

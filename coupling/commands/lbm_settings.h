@@ -77,6 +77,11 @@ std::vector<std::string> files_of(const CheckpointRequest& checkpoint);
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files);
 
+/// What drives fluid and grains, SI. A UserError where it would change the water's velocity by a tenth of a
+/// cell a step or more in every step.
+Vec3 gravity_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+Vec3 pressure_gradient_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+
 /// Does any face or force follow a variable?
 bool values_change(const LbmSettings& settings);
 
