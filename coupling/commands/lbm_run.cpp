@@ -11,7 +11,7 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
-#include "scene_checks.h"
+#include "styles/scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"

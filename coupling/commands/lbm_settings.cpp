@@ -409,25 +409,27 @@ lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& uni
 }
 
 namespace {
-void require_gentle(const Vec3& lattice, const std::string& what, const Vec3& si, const lbm::Units& units) {
-  constexpr double most = 0.1;
+/// `lattice`: cells a step, in each step.
+void require_below(double most, const Vec3& lattice, const std::string& what, const Vec3& si,
+                   const lbm::Units& units) {
   if (!(lattice.norm() < most))
     throw_user_error(
         {"lbm force", what, fmt::format("{:g} {:g} {:g}", si[0], si[1], si[2]),
-         fmt::format("change the water by less than {:g} cells a step in each step", most),
-         fmt::format("use a timestep far below {:.3g} s, or a smaller force", units.time_step())});
+         fmt::format("change velocities by less than {:g} cells a step in each step", most),
+         fmt::format("use a timestep far below {:.3g} s, or a smaller value", units.time_step())});
 }
 }  // namespace
 
+/// It moves grains by their buoyancy alone, so that much is allowed.
 Vec3 gravity_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
   const Vec3 si = settings.gravity.now(lmp);
-  require_gentle(units.acceleration_to_lattice(si), "gravity", si, units);
+  require_below(100, units.acceleration_to_lattice(si), "gravity", si, units);
   return si;
 }
 
 Vec3 pressure_gradient_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
   const Vec3 si = settings.pressure_gradient.now(lmp);
-  require_gentle(units.force_density_to_lattice(si), "pressure_gradient", si, units);
+  require_below(0.1, units.force_density_to_lattice(si), "pressure_gradient", si, units);
   return si;
 }
 

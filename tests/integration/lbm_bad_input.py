@@ -139,10 +139,11 @@ def culprit(script):
 
 def main():
     program = program_from_command_line(__doc__)
+    cases = CASES if program.ranks == 1 else CASES[::2]  # starting several ranks takes a second
     with scratch() as folder:
-        failures = mistakes_not_named(program, CASES, folder, culprit)
+        failures = mistakes_not_named(program, cases, folder, culprit)
     expect(not failures, "\n".join(failures))
-    print(f"{program.ranks} ranks: {len(CASES)} mistakes, each named in one line")
+    print(f"{program.ranks} ranks: {len(cases)} mistakes, each named in one line")
 
 
 if __name__ == "__main__":
