@@ -20,10 +20,10 @@
 #include "replacements/pair_gran_vector.h"
 #include "replicate.h"
 #include "run.h"
-#include "scene_checks.h"
 #include "signal_handling.h"
 #include "styles/all_styles.h"
 #include "styles/early_stop.h"
+#include "styles/scene_checks.h"
 
 namespace {
 

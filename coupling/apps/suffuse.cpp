@@ -40,7 +40,7 @@ usage: suffuse -in SCRIPT [LIGGGHTS options]
 
 LIGGGHTS options pass through, among them:
   -in FILE            the script (otherwise it is read from standard input)
-  -var NAME VALUE     set a script variable, e.g. -var scale quick
+  -var NAME VALUE     set a script variable, e.g. -var scale quick; one that the script does not know is refused
   -log FILE           name of the log file (none: no log)
   -screen FILE        screen output to a file (none: no screen output)
   -echo WHAT          none, screen, log or both
@@ -83,8 +83,8 @@ const char* script_name(int argc, char** argv) {
   return nullptr;
 }
 
-/// Words of `-var NAME VALUE ...`. A name that stands nowhere in the script, most likely misspelt, would
-/// change nothing, and so would a second value.
+/// Refuses a `-var NAME VALUE` whose name stands nowhere in the script, most likely misspelt: it would change
+/// nothing. Says where a second value of one name does not count.
 void require_known_variables(int argc, char** argv, const char* script) {
   std::map<std::string, std::string> given;
   for (int i = 1; i + 2 < argc; ++i) {

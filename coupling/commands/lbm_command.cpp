@@ -186,8 +186,8 @@ CoupledSettings LbmCommand::resolved_settings(std::vector<EffectChoice>& effects
   const LiggghtsPort::Summary grains = port_->summary();
   CoupledSettings coupled = settings_.coupled;
   coupled.fluid.faces = faces_now(settings_, units, lmp_);
-  coupled.gravity = settings_.gravity.now(lmp_);
-  coupled.pressure_gradient = settings_.pressure_gradient.now(lmp_);
+  coupled.gravity = gravity_now(settings_, units, lmp_);
+  coupled.pressure_gradient = pressure_gradient_now(settings_, units, lmp_);
   SceneFacts facts;
   facts.fastest_flow = coupled.units.largest_velocity.value_or(0);
   for (const lbm::FaceCondition& face : coupled.fluid.faces)
@@ -336,6 +336,9 @@ void LbmCommand::run(ArgumentReader& reader) {
   if (reader.accept("until")) {
     if (!reader.accept("steady")) reader.unknown(reader.word("condition"), "steady");
     request.steady = reader.positive("share");
+    if (*request.steady >= 1)
+      throw_user_error({reader.who(), "until steady", fmt::format("{:g}", *request.steady), "be below 1",
+                        "it is a share of the flow"});
     if (reader.accept("window")) request.window = reader.positive("window");
   }
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");

@@ -11,7 +11,7 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
-#include "scene_checks.h"
+#include "styles/scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"
@@ -49,8 +49,8 @@ void LbmRun::say(const std::string& line) const {
 
 void LbmRun::set_values() {
   simulation_.set_faces(faces_now(settings_, simulation_.units(), lmp_));
-  simulation_.set_gravity(settings_.gravity.now(lmp_));
-  simulation_.set_pressure_gradient(settings_.pressure_gradient.now(lmp_));
+  simulation_.set_gravity(gravity_now(settings_, simulation_.units(), lmp_));
+  simulation_.set_pressure_gradient(pressure_gradient_now(settings_, simulation_.units(), lmp_));
 }
 
 void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {

@@ -11,6 +11,7 @@
 #include "lammps.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
+#include "suffuse/coupling/automatic_coefficient.h"
 
 namespace suffuse::coupling {
 
@@ -31,6 +32,15 @@ Meaning choose(ArgumentReader& reader, const std::string& what,
 const std::vector<std::pair<std::string, bool>> kYesNo{{"yes", true}, {"no", false}};
 const std::vector<std::pair<std::string, Switch>> kSwitch{
     {"on", Switch::on}, {"off", Switch::off}, {"auto", Switch::automatic}};
+
+double positive_within(ArgumentReader& reader, const std::string& what, double least, double most) {
+  const double value = reader.positive(what);
+  if (value < least || value > most)
+    throw_user_error(
+        {reader.who(), what, fmt::format("{:g}", value),
+         least > 0 ? fmt::format("be {:g} to {:g}", least, most) : fmt::format("be at most {:g}", most), ""});
+  return value;
+}
 
 void refuse_repeated(const ArgumentReader& reader, const std::string& word, bool given) {
   if (given) throw_user_error({reader.who(), word, "given twice", "be given once", "drop one of the lines"});
@@ -201,7 +211,8 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
     } else if (reader.keyword("coefficient")) {
       coefficient_given = true;
       solids.automatic_coefficient = reader.accept("auto");
-      if (!solids.automatic_coefficient) solids.cells.coefficient = reader.positive("coefficient");
+      if (!solids.automatic_coefficient)
+        solids.cells.coefficient = positive_within(reader, "coefficient", 1e-3, kLargestCoefficient);
     } else if (reader.keyword("fraction")) {
       solids.fraction = choose<FractionMethod>(reader, "fraction",
                                                {{"exact", FractionMethod::exact},
@@ -215,7 +226,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
         solids.subcells = static_cast<int>(n);
       }
     } else if (reader.keyword("remap")) {
-      solids.remap_distance = reader.positive("remap");
+      solids.remap_distance = positive_within(reader, "remap", 0, 0.1);
     } else {
       reader.unknown(reader.word("keyword"), "operator, weighting, coefficient, fraction, remap");
     }
@@ -274,12 +285,12 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
         virtual_mass.reset();
       } else {
         virtual_mass = reader.number("virtual_mass");
-        if (*virtual_mass < 0)
-          throw_user_error({reader.who(), "virtual_mass", fmt::format("{:g}", *virtual_mass), "be >= 0",
+        if (*virtual_mass < 0 || *virtual_mass > 100)
+          throw_user_error({reader.who(), "virtual_mass", fmt::format("{:g}", *virtual_mass), "be 0 to 100",
                             "0.5 is that of a sphere; `auto` decides"});
       }
     } else if (reader.keyword("max_mach")) {
-      largest_mach = reader.positive("max_mach");
+      largest_mach = positive_within(reader, "max_mach", 0, 1);
     } else {
       reader.unknown(reader.word("keyword"), "substeps, average_force, virtual_mass, max_mach");
     }
@@ -395,6 +406,31 @@ lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& uni
       face.density = units.pressure_to_density_lattice(given.pressure.now(lmp));
   }
   return faces;
+}
+
+namespace {
+/// `lattice`: cells a step, in each step.
+void require_below(double most, const Vec3& lattice, const std::string& what, const Vec3& si,
+                   const lbm::Units& units) {
+  if (!(lattice.norm() < most))
+    throw_user_error(
+        {"lbm force", what, fmt::format("{:g} {:g} {:g}", si[0], si[1], si[2]),
+         fmt::format("change velocities by less than {:g} cells a step in each step", most),
+         fmt::format("use a timestep far below {:.3g} s, or a smaller value", units.time_step())});
+}
+}  // namespace
+
+/// It moves grains by their buoyancy alone, so that much is allowed.
+Vec3 gravity_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
+  const Vec3 si = settings.gravity.now(lmp);
+  require_below(100, units.acceleration_to_lattice(si), "gravity", si, units);
+  return si;
+}
+
+Vec3 pressure_gradient_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp) {
+  const Vec3 si = settings.pressure_gradient.now(lmp);
+  require_below(0.1, units.force_density_to_lattice(si), "pressure_gradient", si, units);
+  return si;
 }
 
 bool values_change(const LbmSettings& settings) {

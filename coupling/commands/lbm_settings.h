@@ -91,6 +91,11 @@ std::vector<std::string> files_of(const CheckpointRequest& checkpoint);
 void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
                          const std::vector<std::string>& files);
 
+/// What drives fluid and grains, SI. A UserError where velocities would change absurdly in every step: by 100
+/// cells a step of gravity, by a tenth of one of a pressure gradient.
+Vec3 gravity_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+Vec3 pressure_gradient_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+
 /// Does any face or force follow a variable?
 bool values_change(const LbmSettings& settings);
 

@@ -9,7 +9,7 @@
 #include "read_restart.h"
 #include "register_styles.h"
 #include "restart_file.h"
-#include "scene_checks.h"
+#include "styles/scene_checks.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "write_restart.h"

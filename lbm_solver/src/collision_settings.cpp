@@ -12,8 +12,8 @@ void check(const CollisionSettings& settings) {
   if (!(settings.relaxation_time > 0.5 && std::isfinite(settings.relaxation_time)))
     throw_user_error({"fluid", "relaxation_time", fmt::format("{}", settings.relaxation_time), "be > 0.5",
                       "raise the viscosity or the time step"});
-  if (!(settings.magic > 0 && std::isfinite(settings.magic)))
-    throw_user_error({"fluid", "magic", fmt::format("{}", settings.magic), "be > 0",
+  if (!(settings.magic >= 1e-4 && settings.magic <= 100))
+    throw_user_error({"fluid", "magic", fmt::format("{}", settings.magic), "be 1e-4 to 100",
                       "0.1875 keeps walls in place, 0.25 is the most stable"});
   if (!(settings.smagorinsky >= 0 && settings.smagorinsky < 1))
     throw_user_error({"fluid", "smagorinsky", fmt::format("{}", settings.smagorinsky), "lie in [0, 1)",

@@ -122,7 +122,21 @@ void FixDensityScaling::init() {
   if (first_init_) require_true_masses_at_first();
   first_init_ = false;
   law_ = std::make_unique<suffuse::PairLaw>(suffuse::PairLaw::of(lmp, kWho));
+  require_sane_factors();
   scale(0, atom->nlocal);
+}
+
+/// Beyond, grains a thousand times smaller than the reference would share its step: another unit.
+void FixDensityScaling::require_sane_factors() const {
+  constexpr double most = 1e6;
+  double largest = 1;
+  for (int i = 0; i < atom->nlocal; ++i) largest = std::max(largest, factor(i));
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  if (!(largest <= most))
+    throw_user_error({kWho, by_size_ ? "reference diameter" : "share of the critical time",
+                      fmt::format("{:g}", by_size_ ? diameter_ : share_),
+                      fmt::format("raise densities by at most {:g}, not by {:.3g}", most, largest),
+                      "SI units: diameters in m, `timestep` in s"});
 }
 
 void FixDensityScaling::require_compatible_fixes() const {

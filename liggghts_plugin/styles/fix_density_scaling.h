@@ -71,6 +71,7 @@ class FixDensityScaling : public Fix {
   void restore_true_masses();
   void require_true_masses_at_first();
   void require_compatible_fixes() const;
+  void require_sane_factors() const;
   void find_gravity();
   void find_touching();
   void remember_box();

@@ -102,13 +102,21 @@ void read_stop(ArgumentReader& reader, servo::Settings& settings) {
   }
 }
 
+/// A share, or a ratio whose meaning ends at 1.
+double share(ArgumentReader& reader, const char* what) {
+  const double value = reader.positive(what);
+  if (value > 1)
+    throw_user_error({reader.who(), what, fmt::format("{:g}", value), "be <= 1", "it is a share"});
+  return value;
+}
+
 void read_option(ArgumentReader& reader, ServoArguments& arguments) {
   const std::string key = reader.keyword();
   if (key == "every") {
     arguments.every = reader.positive_integer("every");
     arguments.every_given = true;
   } else if (key == "inertial_number") {
-    arguments.settings.inertial_number = reader.positive("inertial_number");
+    arguments.settings.inertial_number = share(reader, "inertial_number");
   } else if (key == "diameter") {
     if (reader.accept("mass")) {
       arguments.diameter_kind = MeanDiameter::kMass;
@@ -125,14 +133,11 @@ void read_option(ArgumentReader& reader, ServoArguments& arguments) {
     arguments.settings.max_rate = reader.positive("max_rate");
   } else if (key == "approach") {
     arguments.approach_given = true;
-    const double share = arguments.settings.approach_share = reader.positive("approach");
-    if (share > 1)
-      throw_user_error({reader.who(), "approach", fmt::format("{:g}", share), "be <= 1",
-                        "it is a share of the target stress"});
+    arguments.settings.approach_share = share(reader, "approach");
   } else if (key == "unbalanced") {
-    arguments.settings.unbalanced = reader.accept("off") ? 0 : reader.positive("unbalanced (off or a ratio)");
+    arguments.settings.unbalanced = reader.accept("off") ? 0 : share(reader, "unbalanced (off or a ratio)");
   } else if (key == "tolerance") {
-    arguments.settings.tolerance = reader.positive("tolerance");
+    arguments.settings.tolerance = share(reader, "tolerance");
   } else if (key == "static_window") {
     arguments.window_steps = reader.positive_integer("static_window");
   } else if (key == "progress") {

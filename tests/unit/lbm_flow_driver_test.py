@@ -34,6 +34,8 @@ every = 1
 def main(program, mpirun, folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
+    for left in folder.iterdir():  # of an earlier test
+        left.unlink()
 
     def run(name, time, restart="", ranks=2, text=None):
         case = folder / f"{name}.toml"

@@ -18,7 +18,7 @@
 #include "fix_mesh.h"
 #include "lammps.h"
 #include "modify.h"
-#include "styles/style_support.h"
+#include "style_support.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 
