@@ -23,8 +23,11 @@ void wait_for_disk(const std::string& path, const std::string& who) {
 }
 
 std::string one_name_of(const std::string& path) {
+  // Absolute first: of "m.csv" and "./m.csv" that are not there yet, only the latter would become so.
   std::error_code problem;
-  const std::filesystem::path name = std::filesystem::weakly_canonical(path, problem);
+  const std::filesystem::path full = std::filesystem::absolute(path, problem);
+  if (problem) return path;
+  const std::filesystem::path name = std::filesystem::weakly_canonical(full, problem);
   return problem ? path : name.string();
 }
 
