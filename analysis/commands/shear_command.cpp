@@ -35,6 +35,20 @@ struct Row {
   std::string value;  ///< empty: not defined
 };
 
+/// Samples before the strain begins to grow: the servo still brings the stress to where the path begins.
+void leave_out_the_wait(ShearSeries& series) {
+  const std::vector<double>& strain = series.axial_strain;
+  std::ptrdiff_t first = 0;
+  while (first + 1 < std::ssize(strain) && strain[static_cast<std::size_t>(first)] == 0 &&
+         strain[static_cast<std::size_t>(first) + 1] == 0)
+    ++first;
+  for (std::vector<double>* column :
+       {&series.axial_strain, &series.mean_stress, &series.deviator, &series.volumetric_strain,
+        &series.void_ratio, &series.coordination, &series.fine_coordination, &series.coarse_coordination,
+        &series.stress_reduction, &series.sliding_share})
+    if (!column->empty()) column->erase(column->begin(), column->begin() + first);
+}
+
 ShearSeries series_of(const std::string& path) {
   const NumberTable table(path, kWho);
   const auto if_there = [&](const char* name) {
@@ -54,7 +68,8 @@ ShearSeries series_of(const std::string& path) {
   series.sliding_share = if_there("sliding_share");
   if (series.axial_strain.back() < 0)  // extension: by the magnitudes of strain and deviator
     for (std::vector<double>* column : {&series.axial_strain, &series.deviator})
-      for (double& value : *column) value = -value;
+      for (double& value : *column) value = 0 - value;
+  leave_out_the_wait(series);
   return series;
 }
 

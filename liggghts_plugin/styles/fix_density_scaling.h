@@ -83,7 +83,7 @@ class FixDensityScaling : public Fix {
   double diameter_ = 0;        // m, reference
   double share_ = 0;           // of the critical time
   double reference_time_ = 0;  // s
-  double bound_ = 1e-3;        // of the inertial number
+  double bound_ = 1e-4;        // of the inertial number (docs/reference/fix_density_scaling.md, Measured)
   bigint every_ = 1000;
   std::unique_ptr<suffuse::PairLaw> law_;
   bool first_init_ = true;

@@ -78,6 +78,22 @@ def check_split_by_share(program):
         program.must_refuse(["contacts", "layers.dump", "layers_contacts.dump", "--split", wrong], "--split", wrong)
 
 
+def check_shear(program):
+    """A ramp of q/p' to 1 at 4 % and down, after two samples of waiting; in extension the same by magnitudes."""
+    for sign in (1, -1):
+        rows = [(0, 0), (0, 0)] + [(k * 1e-3, min(k, 80 - k) / 40) for k in range(1, 61)]
+        text = "".join(f"{sign * e},200e3,{sign * 200e3 * ratio}\n" for e, ratio in rows)
+        (program.folder / "shear.csv").write_text("axial_strain,mean_stress_pa,deviatoric_stress_pa\n" + text)
+        program.must_run("shear", "shear.csv", "--output", "curves.csv", "--overwrite")
+        found = {row["quantity"]: row["value"] for row in csv.DictReader(open(program.folder / "curves.csv"))}
+        check(abs(float(found["peak_stress_ratio"]) - 1) < 0.02 and abs(float(found["axial_strain_at_peak"]) - 0.04) < 1e-9, f"{sign}: {found}")
+        check(abs(float(found["stress_ratio_at_end"]) - 0.5) < 1e-9 and found["coordination_start"] == "", f"{sign}: {found}")
+    (program.folder / "cycle.csv").write_text("axial_strain,mean_stress_pa,deviatoric_stress_pa\n0,1,0\n0.01,1,1\n0.005,1,0\n0.02,1,1\n")
+    program.must_refuse(["shear", "cycle.csv"], "cycle.csv", "grow from sample to sample")
+    (program.folder / "unsheared.csv").write_text("time_s,mean_stress_pa\n0,1\n1,1\n2,1\n")
+    program.must_refuse(["shear", "unsheared.csv"], "axial_strain")
+
+
 def check_rose(program, has_figures):
     words = ["rose", "c.dump", "g.dump", "--plane", "xz", "--output", "rose.csv", "--fits", "fits.csv", "--sphere", "sphere.csv", "--cells", "60"]
     out = program.must_run(*words, *(["--figure", "rose.svg", "--sphere-figure", "sphere.png"] if has_figures else []))
@@ -248,6 +264,7 @@ def main():
         check_mistakes(program)
         check_hostile(program)
         check_split_by_share(program)
+        check_shear(program)
         check_numbers(program)
         check_reproduce(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
