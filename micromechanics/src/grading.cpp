@@ -73,6 +73,20 @@ std::vector<GradingPoint> spread(const std::vector<GradingClass>& classes, const
   return curve;
 }
 
+/// Where a flat stretch [first, end] of a curve begins: the upper classes of fines that are few may lie
+/// within the rise that a stretch is allowed, but rise much more steeply than what follows.
+std::size_t flat_from(const std::vector<GradingPoint>& curve, std::size_t first, std::size_t end,
+                      const GapRule& rule) {
+  constexpr double steeper = 3;
+  const auto slope = [&](std::size_t a, std::size_t b) {
+    return (curve[b].finer - curve[a].finer) / std::log(curve[b].diameter / curve[a].diameter);
+  };
+  while (first + 1 < end && slope(first, first + 1) > steeper * slope(first + 1, end) + kRounding &&
+         curve[end].diameter >= rule.class_ratio * curve[first + 1].diameter)
+    ++first;
+  return first;
+}
+
 /// A flat stretch at an end of the curve that is not known is no gap: nobody knows how wide it is.
 std::optional<GradingGap> widest_gap(const std::vector<GradingPoint>& curve, const GapRule& rule) {
   std::optional<GradingGap> widest;
@@ -82,7 +96,8 @@ std::optional<GradingGap> widest_gap(const std::vector<GradingPoint>& curve, con
     std::size_t end = i + 1;
     if (curve[end].finer - curve[i].finer > rule.curve_rise) continue;
     while (end + 1 < curve.size() && curve[end + 1].finer - curve[i].finer <= rule.curve_rise) ++end;
-    const GradingGap found{curve[i].diameter, curve[end].diameter, curve[i].finer, 0};
+    const std::size_t first = flat_from(curve, i, end, rule);
+    const GradingGap found{curve[first].diameter, curve[end].diameter, curve[first].finer, 0};
     const bool inside = found.finer > 0.01 && curve[end].finer < 0.99;
     if (inside && found.ratio() >= rule.class_ratio && (!widest || found.ratio() > widest->ratio()))
       widest = found;
