@@ -47,13 +47,10 @@ void write_sample_variables(SafeFile& file, const SampleScript& script) {
   number("box_edge", script.box_edge);
   number("smallest_diameter", sample.classes.front().diameter);
   number("largest_diameter", sample.classes.back().diameter);
-  double surface = 0, per_volume = 0;  // sums of w/d and w/v
-  for (const auto& size : sample.classes) {
-    surface += size.mass / size.diameter;
-    per_volume += size.mass / micromechanics::sphere_volume(size.diameter / 2);
-  }
-  number("sauter_diameter", 1 / surface);
-  number("solid_volume", sample.grains / per_volume);
+  std::vector<micromechanics::GradingClass> sizes;
+  for (const auto& size : sample.classes) sizes.push_back({size.diameter, size.mass});
+  number("sauter_diameter", micromechanics::effective_diameter(sizes));
+  number("solid_volume", sample.solids);
   number("skin", kSkin * sample.classes.front().diameter);
   // Lines of sample.toml: a script cannot put a variable's value between quotes.
   for (const auto& [name, value] :

@@ -42,10 +42,7 @@ void leave_out_the_wait(ShearSeries& series) {
   while (first + 1 < std::ssize(strain) && strain[static_cast<std::size_t>(first)] == 0 &&
          strain[static_cast<std::size_t>(first) + 1] == 0)
     ++first;
-  for (std::vector<double>* column :
-       {&series.axial_strain, &series.mean_stress, &series.deviator, &series.volumetric_strain,
-        &series.void_ratio, &series.coordination, &series.fine_coordination, &series.coarse_coordination,
-        &series.stress_reduction, &series.sliding_share})
+  for (std::vector<double>* column : series.columns())
     if (!column->empty()) column->erase(column->begin(), column->begin() + first);
 }
 

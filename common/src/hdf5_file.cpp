@@ -258,6 +258,24 @@ void Hdf5File::create_array(const std::string& dataset, const std::vector<std::s
   });
 }
 
+namespace {
+
+/// This rank's part of a dataset, the values for it in memory, and that all ranks transfer theirs together.
+struct Transfer {
+  Transfer(const Id& dataset, const std::string& name, const ArrayPart& part)
+      : file(H5Dget_space(dataset), H5Sclose, "shape " + name) {
+    select(file, part);
+    ensure(H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE), "transfer " + name + " together");
+    const hsize_t length = volume(part);
+    ensure(H5Sset_extent_simple(memory, 1, &length, nullptr), "shape memory");
+  }
+  Id file;
+  Id memory{H5Screate(H5S_SIMPLE), H5Sclose, "shape memory"};
+  Id together{H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer"};
+};
+
+}  // namespace
+
 template <class T>
 void Hdf5File::write(const std::string& dataset, const ArrayPart& part, const std::vector<T>& values) {
   if (values.size() != volume(part))
@@ -265,13 +283,8 @@ void Hdf5File::write(const std::string& dataset, const ArrayPart& part, const st
   if (nothing_in(part)) return;
   together([&] {
     const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose, "open " + dataset);
-    const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
-    select(file_space, part);
-    const hsize_t length = values.size();
-    const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
-    const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
-    ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "write together");
-    ensure(H5Dwrite(id, type_of<T>(), memory, file_space, transfer, values.data()),
+    const Transfer parts(id, dataset, part);
+    ensure(H5Dwrite(id, type_of<T>(), parts.memory, parts.file, parts.together, values.data()),
            "write " + dataset + " to " + path_);
   });
 }
@@ -282,14 +295,9 @@ std::vector<T> Hdf5File::read(const std::string& dataset, const ArrayPart& part)
   together([&] {
     const Id id(H5Dopen(handle_->file, dataset.c_str(), H5P_DEFAULT), H5Dclose,
                 "find " + dataset + " in " + path_);
-    const Id file_space(H5Dget_space(id), H5Sclose, "shape " + dataset);
-    select(file_space, part);
+    const Transfer parts(id, dataset, part);
     values.resize(volume(part));
-    const hsize_t length = values.size();
-    const Id memory(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape memory");
-    const Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "set up a transfer");
-    ensure(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), "read together");
-    ensure(H5Dread(id, type_of<T>(), memory, file_space, transfer, values.data()),
+    ensure(H5Dread(id, type_of<T>(), parts.memory, parts.file, parts.together, values.data()),
            "read " + dataset + " of " + path_);
   });
   return values;

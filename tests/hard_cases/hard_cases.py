@@ -34,6 +34,8 @@ class Bench:
             raise Failed(message)
 
     def run(self, text, ranks=1, name="scene", timeout=600):
+        for written in ("flow.csv", "grains.dump"):  # by the scene before
+            (self.folder / written).unlink(missing_ok=True)
         code, screen = Program(self.options.suffuse, self.options.mpirun, ranks).run(text, self.folder, name, timeout)
         self.guards += [line[line.index(":") + 1:].strip() for line in screen.splitlines() if re.match(r"(suffuse: error|lbm run): .*(must|note|warning)", line)]
         return code, screen

@@ -2,7 +2,7 @@
 import math
 import random
 
-from scenes import HEADER
+from scenes import HEADER, material
 
 VISCOSITY, DENSITY, SPACING = 1e-6, 1000.0, 1e-4
 
@@ -61,17 +61,29 @@ def scene(bench, water, grains, after, periodic="ppp", friction=0.3, modulus=5e6
     smallest = min([g["diameter"] for g in grains], default=water.spacing)
     return "\n".join([
         HEADER.format(boundary=" ".join(periodic)), f"processors {processors}", "" if grains else "atom_modify sort 0 0", "read_data grains.data",
-        f"neighbor {0.3 * smallest:.6g} bin", "neigh_modify delay 0", *([] if not grains else [
-        f"fix modulus all property/global youngsModulus peratomtype {modulus}",
-        "fix ratio all property/global poissonsRatio peratomtype 0.3",
-        f"fix restitution all property/global coefficientRestitution peratomtypepair 1 {restitution}",
-        f"fix friction all property/global coefficientFriction peratomtypepair 1 {friction}",
-        "pair_style gran model hertz tangential history", "pair_coeff * *"]),
+        material(0.3 * smallest, modulus, restitution, friction) if grains else f"neighbor {0.3 * smallest} bin",
         "" if held else "fix motion all nve/sphere", *walls,
         f"fix weight all gravity {water.gravity} vector 0 0 -1" if water.gravity else "",
         "fix hydrodynamic_force all hydrodynamic/force",
         f"timestep {timestep:.12g}" if timestep else "dem_timestep rayleigh 0.2 pressure 100" if grains else f"timestep {water.step:.12g}",
         "thermo 1000000", "thermo_modify lost error norm no", extra, water.text(), after, ""])
+
+
+def pulled_in_a_periodic_box(water, count, diameter, weight):
+    """Lets the water's gradient balance the weight (m/s^2) in water of `count` grains; returns the line that pulls them."""
+    pull = 1650 * math.pi / 6 * diameter ** 3 * weight
+    water.lines = "\n".join(filter(None, [water.lines, f"lbm force pressure_gradient 0 0 {count * pull / math.prod(water.size):.12g}"]))
+    return f"fix pull all addforce 0 0 {-pull:.12g}"
+
+
+def array_speed(concentration):
+    """Of a cubic array over that of a lone sphere (Hasimoto 1959)."""
+    return 1 - 1.7601 * concentration ** (1 / 3) + concentration - 1.5593 * concentration ** 2
+
+
+def weight_pressure(count, diameter, size):
+    """Pa: the weight in water of `count` grains over the column's area, at which the gradient is critical."""
+    return 1650 * 9.81 * count * math.pi / 6 * diameter ** 3 / (size[0] * size[1])
 
 
 def scattered(count, diameter, size, seed=7, clear=1.05, walls="ppp", density=2650.0, speed=0.0):

@@ -18,17 +18,21 @@ boundary {boundary}
 newton off
 """
 
-MATERIAL = """
-neighbor 1e-4 bin
+def material(skin=1e-4, modulus="7e8", restitution=0.7, friction="{friction}"):
+    """Neighbours and contact law of one type of grains; `friction` may be filled in later."""
+    return f"""
+neighbor {skin} bin
 neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 7e8
+fix modulus all property/global youngsModulus peratomtype {modulus}
 fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
+fix restitution all property/global coefficientRestitution peratomtypepair 1 {restitution}
 fix friction all property/global coefficientFriction peratomtypepair 1 {friction}
 pair_style gran model hertz tangential history
 pair_coeff * *
-fix motion all nve/sphere
 """
+
+
+MATERIAL = material() + "fix motion all nve/sphere\n"
 
 # Three sizes, 0.5 to 1 mm, placed at random without contact.
 GRAINS = """

@@ -12,8 +12,6 @@ def creep(bench, precision, steps):
     water = Water((12, 12, 30), 0.53, {"zlo": "noslip", "zhi": "noslip"}, 9.81, "default", precision=precision)
     diameter, size = 4 * water.spacing, water.size
     grains = scattered(24, diameter, size, walls="ppf")
-    for name in ("flow.csv", "grains.dump"):
-        (bench.folder / name).unlink(missing_ok=True)
     after = f"lbm run 0.6\n{DUMP}run 0\nundump grains\n" + DUMP.replace("grains.dump", "after.dump") + \
         "dump_modify grains every 1000000000\n" + f"lbm monitor flow every {steps / 10 * water.step:.12g} file flow.csv mass kinetic_energy\n" \
         f"lbm run {steps * water.step:.12g}\ndump_modify grains every 1\nrun 0\n"

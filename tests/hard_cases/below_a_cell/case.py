@@ -9,25 +9,21 @@ beside the large grain no fine ever moves faster than 1.5 times as fast as that,
 """
 import math
 
-from wet_grains import DUMP, Water, cubic, grain, last_dump, scene
+from wet_grains import DUMP, Water, array_speed, cubic, grain, last_dump, pulled_in_a_periodic_box, scene
 
 PRESETS = ("default", "thesis")
 
 
 def alone(bench, preset, cells, shift):
-    """Terminal speed over Hasimoto's (1959): U/U_Stokes = 1 - 1.7601 c^(1/3) + c - 1.5593 c^2; `shift` from the corner of a cell."""
+    """Terminal speed over Hasimoto's; `shift` from the corner of a cell."""
     water = Water((20, 20, 20), 0.6, preset=preset, lines="lbm effect lubrication off")
     diameter, size = cells * water.spacing, water.size
     weight = 9.81e-2
-    volume = math.pi / 6 * diameter ** 3
-    pull, box = 1650 * volume * weight, size[0] * size[1] * size[2]
-    # The mean flow of fluid and grain is zero: the gradient balances the weight.
-    water.lines += f"\nlbm force pressure_gradient 0 0 {pull / box:.12g}"
+    pull = pulled_in_a_periodic_box(water, 1, diameter, weight)
     bench.must_run(scene(bench, water, [grain([0.5 * s + shift * water.spacing for s in size], diameter)],
-                         f"lbm run 0.3\n{DUMP}run 0\n", extra=f"fix pull all addforce 0 0 {-pull:.12g}"))
+                         f"lbm run 0.3\n{DUMP}run 0\n", extra=pull))
     speed = last_dump(bench.folder / "grains.dump")["vz"][0]
-    concentration = volume / box
-    hasimoto = (1 - 1.7601 * concentration ** (1 / 3) + concentration - 1.5593 * concentration ** 2) * 1650 * weight * diameter ** 2 / (18 * 1e-3)
+    hasimoto = array_speed(math.pi / 6 * diameter ** 3 / math.prod(size)) * 1650 * weight * diameter ** 2 / (18 * 1e-3)
     return -speed / hasimoto
 
 
@@ -43,7 +39,6 @@ compute large large reduce max v_speed
 lbm monitor flow every {5 * water.step:.12g} file flow.csv c_fastest as fines_m_per_s c_large as large_m_per_s extremes
 lbm run 0.06
 """
-    (bench.folder / "flow.csv").unlink(missing_ok=True)
     code, screen = bench.run(scene(bench, water, grains, after, periodic="ppf"))
     if code != 0:
         bench.expect(preset == "thesis" and code == 1 and "suffuse: error:" in screen, f"tau {tau}: code {code}\n{screen[-1500:]}")

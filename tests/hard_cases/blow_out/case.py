@@ -6,7 +6,7 @@ Went wrong: the load of one step at the jump moves grains through each other or 
 Criterion: no grain faster than 1.5 times the largest Darcy velocity over its porosity of 0.4; at the end every grain above the floor by
 its radius less 2 % and below the lid, no overlap above 5 % of a diameter, kinetic energy below a thousandth of its largest.
 """
-from wet_grains import DUMP, Water, last_dump, scattered, scene
+from wet_grains import DUMP, Water, last_dump, scattered, scene, weight_pressure
 
 PRESETS = ("default", "thesis")
 
@@ -15,7 +15,7 @@ def run(bench, preset, full):
     water = Water((16, 16, 60), 0.506, {"zlo": "pressure v_p", "zhi": "pressure 0"}, 9.81, preset)
     diameter, size = 4 * water.spacing, water.size
     grains = scattered(60, diameter, [size[0], size[1], 0.6 * size[2]], walls="ppf")
-    critical = 1650 * 9.81 * 60 * 3.14159265 / 6 * diameter ** 3 / (size[0] * size[1])  # Pa over the bed, in excess of the hydrostatic pressure
+    critical = weight_pressure(60, diameter, size)
     after = f"""variable speed atom sqrt(vx^2+vy^2+vz^2)
 compute fastest all reduce max v_speed
 lbm run 0.05

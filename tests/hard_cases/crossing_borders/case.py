@@ -15,8 +15,6 @@ def run(bench, preset, full):
               grain((14 * dx, 15 * dx, 20 * dx), 14 * dx, 1500, (0, 0, -water.speed(0.01)))]
     ends = {}
     for ranks, parts in ((1, "1 1 1"), (2, "1 1 2"), (4, "1 2 2")):
-        for name in ("flow.csv", "grains.dump"):
-            (bench.folder / name).unlink(missing_ok=True)
         text = scene(bench, water, grains, f"lbm monitor flow every {20 * water.step:.12g} file flow.csv kinetic_energy mass\nlbm run {800 * water.step:.12g}\n{DUMP}run 0\n",
                      processors=parts)
         bench.must_run(text, ranks)

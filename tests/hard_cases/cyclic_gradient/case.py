@@ -5,7 +5,7 @@ Went wrong: rounding and lag of the load pump energy in, and the bed creeps up o
 Criterion: in the second half of the cycles the bed's centre moves by less than 0.5 % of a diameter, and at the ends of cycles no grain is
 faster than 1 mm/s, a fiftieth of its terminal speed.
 """
-from wet_grains import Water, scattered, scene
+from wet_grains import Water, scattered, scene, weight_pressure
 
 
 def run(bench, preset, full):
@@ -13,7 +13,7 @@ def run(bench, preset, full):
     water = Water((16, 16, 40), 0.53, {"zlo": "pressure v_p", "zhi": "pressure 0"}, 9.81, preset)
     diameter, size = 4 * water.spacing, water.size
     grains = scattered(60, diameter, [size[0], size[1], 0.9 * size[2]], walls="ppf")
-    critical = 1650 * 9.81 * 60 * 3.14159265 / 6 * diameter ** 3 / (size[0] * size[1])
+    critical = weight_pressure(60, diameter, size)
     after = f"""compute height all reduce ave z
 variable speed atom sqrt(vx^2+vy^2+vz^2)
 compute fastest all reduce max v_speed

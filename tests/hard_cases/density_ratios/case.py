@@ -15,7 +15,6 @@ PRESETS = ("default", "thesis")
 def speed(bench, preset, ratio):
     water = Water((24, 24, 40), 0.8, {"zlo": "noslip", "zhi": "noslip"}, 0.0981, preset)
     diameter = 5 * water.spacing
-    (bench.folder / "grains.dump").unlink(missing_ok=True)
     code, screen = bench.run(scene(bench, water, [grain([0.5 * s for s in water.size], diameter, 1000 * ratio)], f"lbm run 0.15\n{DUMP}run 0\n", periodic="ppf"))
     if code != 0:
         bench.expect(preset == "thesis" and code == 1 and "suffuse: error:" in screen, f"density ratio {ratio}: code {code}\n{screen[-1500:]}")

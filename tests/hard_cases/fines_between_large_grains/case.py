@@ -9,7 +9,7 @@ within 2 % of its diameter of the same place, or, through the hole, on the floor
 """
 import math
 
-from scenes import HEADER
+from scenes import HEADER, material
 from wet_grains import DUMP, last_dump
 
 LARGE = 1e-3  # m, radius
@@ -32,15 +32,7 @@ group large id 1 2 3
 create_atoms 1 single {5e-3 + 0.04 * fine:.12g} {5e-3 + 0.03 * fine:.12g} {start:.12g} units box
 group fine id 4
 set group fine diameter {2 * fine:.12g} density 2650
-neighbor {0.5 * fine:.12g} bin
-neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 7e7
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.3
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
-fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
+{material(0.5 * fine, 7e7, 0.3, 0.3)}fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
 fix weight fine gravity 9.81 vector 0 0 -1
 fix motion fine nve/sphere
 timestep {step:.12g}

@@ -12,7 +12,6 @@ PRESETS = ("default", "thesis")
 
 def flow_of(bench, preset, grains, held, pressure):
     water = Water((16, 16, 40), 0.6, {"zlo": f"pressure {pressure}", "zhi": "pressure 0"}, 0, preset)
-    (bench.folder / "flow.csv").unlink(missing_ok=True)
     after = f"lbm monitor flow every {50 * water.step:.12g} file flow.csv superficial_velocity extremes\nlbm run {1500 * water.step:.12g}\n"
     bench.must_run(scene(bench, water, grains, after, periodic="ppf", held=held))
     flow = bench.series()

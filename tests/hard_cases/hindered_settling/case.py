@@ -11,7 +11,7 @@ the ratio of the two at the places of these grains.)
 """
 import math
 
-from wet_grains import DUMP, Water, grain, last_dump, scattered, scene
+from wet_grains import Water, array_speed, grain, pulled_in_a_periodic_box, scattered, scene
 
 PRESETS = ("default", "thesis")
 
@@ -19,21 +19,17 @@ PRESETS = ("default", "thesis")
 def mean_speed(bench, preset, count):
     water = Water((24, 24, 24), 0.8, preset=preset)
     diameter, size = 5 * water.spacing, water.size
-    box, volume, weight = size[0] * size[1] * size[2], math.pi / 6 * diameter ** 3, 9.81e-3
-    pull = 1650 * volume * weight
-    # The flux of grains and water together is none: a gradient balances the weight.
-    water.lines = f"lbm force pressure_gradient 0 0 {count * pull / box:.12g}"
+    pull = pulled_in_a_periodic_box(water, count, diameter, 9.81e-3)
     grains = scattered(count, diameter, size, clear=1.02) if count > 1 else [grain([0.5 * s for s in size], diameter)]
-    (bench.folder / "flow.csv").unlink(missing_ok=True)
     after = f"""compute mean all reduce ave vz
 variable speed atom sqrt(vx^2+vy^2+vz^2)
 compute fastest all reduce max v_speed
 lbm monitor flow every {20 * water.step:.12g} file flow.csv superficial_velocity c_mean as mean_m_per_s c_fastest as fastest_m_per_s extremes
 lbm run {1200 * water.step:.12g}
 """
-    bench.must_run(scene(bench, water, grains, after, extra=f"fix pull all addforce 0 0 {-pull:.12g}"))
+    bench.must_run(scene(bench, water, grains, after, extra=pull))
     flow = bench.series()
-    phi = count * volume / box
+    phi = count * math.pi / 6 * diameter ** 3 / math.prod(size)
     darcy = [water - (1 - phi) * grains for water, grains in zip(flow["superficial_velocity_z_m_per_s"], flow["mean_m_per_s"])]
     half = len(darcy) // 2
     bench.expect(max(flow["largest_mach"]) < 0.1, f"{count} grains: Mach {max(flow['largest_mach'])}")
@@ -42,7 +38,7 @@ lbm run {1200 * water.step:.12g}
 
 def run(bench, preset, full):
     alone, _, phi_alone = mean_speed(bench, preset, 1)
-    free = alone / (1 - 1.7601 * phi_alone ** (1 / 3) + phi_alone - 1.5593 * phi_alone ** 2)  # Hasimoto's array
+    free = alone / array_speed(phi_alone)
     reached = []
     for count in (21, 63):
         mean, fastest, phi = mean_speed(bench, preset, count)

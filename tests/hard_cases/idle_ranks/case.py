@@ -13,7 +13,6 @@ def run(bench, preset, full):
     grains = scattered(6, 4 * water.spacing, [0.35 * water.size[0], water.size[1], 0.35 * water.size[2]], walls="fpf")
     ends = {}
     for ranks, parts in ((1, "1 1 1"), (7, "1 1 7"), (7, "7 1 1")):
-        (bench.folder / "grains.dump").unlink(missing_ok=True)
         bench.must_run(scene(bench, water, grains, f"lbm run {40 * water.step:.12g}\n{DUMP}run 0\n", periodic="ppf", processors=parts), ranks)
         ends[parts] = last_dump(bench.folder / "grains.dump")
     largest = max(abs(a - b) for parts in ends for axis in "xyz" for a, b in zip(ends["1 1 1"][axis], ends[parts][axis]))

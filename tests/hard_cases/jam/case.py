@@ -22,8 +22,6 @@ def run(bench, preset, full):
     flow = bench.series()
     share = flow["solid_force_z_n"][-1] / (water.size[0] * water.size[1] * water.size[2])
     bench.expect(abs(share - 1) < 0.02, f"the water's force is {share:.3f} of the gradient's")
-    (bench.folder / "flow.csv").unlink()
-    (bench.folder / "grains.dump").unlink()
     # The same, free, with the gradient's push taken off each grain in proportion to its volume.
     bench.must_run(scene(bench, water, grains, after, modulus=5e7))
     flow, end = bench.series(), last_dump(bench.folder / "grains.dump")

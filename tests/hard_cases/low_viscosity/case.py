@@ -20,8 +20,6 @@ def one(bench, preset, operator, tau, steps):
     water = Water((24, 24, 24), tau, preset=preset, lines=f"lbm collision {operator}")
     speed, diameter = water.speed(0.05), 5 * water.spacing
     after = f"lbm monitor flow every {10 * water.step:.12g} file flow.csv kinetic_energy mass extremes\nlbm run {steps * water.step:.12g}\n{DUMP}run 0\n"
-    for name in ("flow.csv", "grains.dump"):
-        (bench.folder / name).unlink(missing_ok=True)
     code, screen = bench.run(scene(bench, water, scattered(8, diameter, water.size, speed=speed), after, restitution=0.9))
     if code != 0:
         bench.expect(operator not in MUST_REACH and code == 1 and "must stay below" in screen, f"tau {tau}, {operator}: code {code}\n{screen[-1500:]}")

@@ -13,7 +13,6 @@ def error(bench, precision, speed):
     height, most = water.size[2], water.speed(speed)
     gradient = 8 * 1e-3 * most / height ** 2
     water.lines = f"lbm force pressure_gradient {gradient:.12g} 0 0"
-    (bench.folder / "flow.csv").unlink(missing_ok=True)
     bench.must_run(scene(bench, water, [], f"lbm monitor flow every {500 * water.step:.12g} file flow.csv superficial_velocity\nlbm run {6000 * water.step:.12g}\n", periodic="ppf"))
     return bench.series()["superficial_velocity_x_m_per_s"][-1] / (2 / 3 * most) - 1
 

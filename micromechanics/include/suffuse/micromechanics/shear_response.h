@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct ShearSeries {
   std::vector<double> coordination, fine_coordination, coarse_coordination;  ///< Z, Z_fc (eq 5.8), Z_cc (5.9)
   std::vector<double> stress_reduction;                                      ///< α
   std::vector<double> sliding_share;
+
+  std::array<std::vector<double>*, 10> columns() {
+    return {&axial_strain,     &mean_stress,  &deviator,          &volumetric_strain,
+            &void_ratio,       &coordination, &fine_coordination, &coarse_coordination,
+            &stress_reduction, &sliding_share};
+  }
 };
 
 struct ShearSettings {
