@@ -73,6 +73,7 @@ void make_command(LAMMPS* lmp, int narg, char** arg) {
 void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
   suffuse::EarlyStop::requested = false;
   suffuse::tell_meshes_beyond_periodic_faces(lmp);
+  suffuse::tell_box_of_few_grains(lmp);
   const suffuse::GrainCensus census(lmp);
   Run(lmp).command(narg, arg);
   if (suffuse::EarlyStop::requested) SignalHandler::request_quit = false;

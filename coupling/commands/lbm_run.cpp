@@ -110,6 +110,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
                   [](const OutputRequest& output) { return output.contacts; }))
     port_.use_contacts();
   tell_meshes_beyond_periodic_faces(lmp_);
+  tell_box_of_few_grains(lmp_);
   port_.set_fluid_time(simulation_.time_si());  // what LIGGGHTS's setup prints may ask for it
   port_.begin(steps * simulation_.substeps());
   port_.set_fluid_time(simulation_.time_si());

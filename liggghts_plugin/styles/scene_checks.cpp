@@ -127,6 +127,26 @@ void tell_meshes_beyond_periodic_faces(LAMMPS* lmp) {
   }
 }
 
+void tell_box_of_few_grains(LAMMPS* lmp) {
+  static bool told = false;
+  const auto* domain = lmp->domain;
+  const auto* atom = lmp->atom;
+  double largest = 0;
+  for (int i = 0; atom->radius != nullptr && i < atom->nlocal; ++i)
+    largest = std::max(largest, atom->radius[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, lmp->world);
+  double shortest = 4 * largest;
+  for (int a = 0; a < 3; ++a)
+    if (domain->periodicity[a] != 0) shortest = std::min(shortest, domain->boxhi[a] - domain->boxlo[a]);
+  if (told || shortest >= 4 * largest) return;
+  told = true;
+  tell(lmp, fmt::format(
+                "suffuse: note: the periodic box is {:.3g} m across, its largest grain {:.3g} m: below two "
+                "diameters a pair may touch by two images, which share one tangential spring; take more "
+                "grains\n",
+                shortest, 2 * largest));
+}
+
 GrainCensus::GrainCensus(LAMMPS* lmp)
     : lmp_(lmp), grains_(over_ranks(lmp, lmp->atom->nlocal, MPI_SUM)), inserted_(inserted_so_far(lmp)) {}
 

@@ -16,6 +16,11 @@ void require_unique_grains(LAMMPS_NS::LAMMPS* lmp, const char* who);
 /// outside, and grains there touch both. Collective.
 void tell_meshes_beyond_periodic_faces(LAMMPS_NS::LAMMPS* lmp);
 
+/// Says, once, that the periodic box is narrower than two diameters of its largest grain: a pair
+/// may touch by two images then, and LIGGGHTS, which knows a contact by the two grains' numbers, gives both
+/// the same tangential spring at each new list. Collective.
+void tell_box_of_few_grains(LAMMPS_NS::LAMMPS* lmp);
+
 /// The grains at the start of a run, to say at its end how many were lost: those that left the box through a
 /// fixed face, which LIGGGHTS passes over in silence after `thermo_modify lost ignore`.
 class GrainCensus {

@@ -19,7 +19,8 @@ namespace mm = micromechanics;
 /// Mean overlap over diameter from which contacts are not contacts any more.
 constexpr double kAbsurdOverlap = 0.2;
 constexpr const char* kRemedy =
-    "go back to the last restart file; a smaller time step (dem_timestep) or max_rate keeps the grains apart";
+    "go back to the last restart file; a smaller time step (dem_timestep) or max_rate keeps the grains "
+    "apart, stiffer grains or a lower target overlap less";
 
 double smaller_diameter(const mm::Packing& packing, const mm::Contact& contact) {
   const double first = packing.grains[static_cast<std::size_t>(contact.first)].radius;
