@@ -60,7 +60,7 @@ def scene(bench, water, grains, after, periodic="ppp", friction=0.3, modulus=5e6
              for k, axis in enumerate("xyz") if grains and periodic[k] == "f" for side in ("lo", "hi")]
     smallest = min([g["diameter"] for g in grains], default=water.spacing)
     return "\n".join([
-        HEADER.format(boundary=" ".join(periodic)), f"processors {processors}", "" if grains else "atom_modify sort 0 0", "read_data grains.data",
+        HEADER.format(boundary=" ".join(periodic)), "hard_particles yes", f"processors {processors}", "" if grains else "atom_modify sort 0 0", "read_data grains.data",
         material(0.3 * smallest, modulus, restitution, friction) if grains else f"neighbor {0.3 * smallest} bin",
         "" if held else "fix motion all nve/sphere", *walls,
         f"fix weight all gravity {water.gravity} vector 0 0 -1" if water.gravity else "",
