@@ -1,0 +1,14 @@
+// A study's TOML file. Nothing of it is run.
+
+#include "fuzz_input.h"
+#include "suffuse/analysis/study_cases.h"
+#include "suffuse/analysis/study_file.h"
+
+using namespace suffuse;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::refused_or_read([&] {
+    fuzz::folder().file("in.scene", "variable a index 1\n");
+    analysis::study_cases(analysis::read_study(fuzz::folder().file("study.toml", fuzz::text_of(data, size))));
+  });
+}
