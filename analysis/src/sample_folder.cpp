@@ -1,7 +1,6 @@
 #include "suffuse/analysis/sample_folder.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <map>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/toml_file.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -30,12 +30,7 @@ constexpr std::array<State, 3> kStates{{{"loose", 0.3}, {"medium", 0.1}, {"dense
 class Table {
  public:
   Table(const std::string& path, std::string who) : path_(path), who_(std::move(who)) {
-    try {
-      table_ = toml::parse_file(path);
-    } catch (const toml::parse_error& problem) {
-      throw UserError(
-          fmt::format("{}: {}, line {}: {}", who_, path, problem.source().begin.line, problem.description()));
-    }
+    table_ = read_toml(path, who_);
     for (const auto& [key, value] : table_)
       if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end())
         complain(std::string(key.str()), "unknown", fmt::format("be one of {}", fmt::join(kKeys, ", ")));

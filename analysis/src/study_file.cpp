@@ -1,7 +1,6 @@
 #include "suffuse/analysis/study_file.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/toml_file.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -251,14 +251,7 @@ std::string with_folder(std::string value, const std::string& placeholder, const
 }
 
 Study read_study(const std::string& path) {
-  toml::table table;
-  if (!files::is_regular_file(path))
-    throw_user_error({"suffuse-study", "file", path, "be there", "give a study, such as single_sphere.toml"});
-  try {
-    table = toml::parse_file(path);
-  } catch (const toml::parse_error& problem) {
-    throw UserError(fmt::format("{}, line {}: {}", path, problem.source().begin.line, problem.description()));
-  }
+  const toml::table table = read_toml(path, "suffuse-study");
   const Section root(path, "", &table,
                      {"title", "script", "ranks", "time_limit", "within", "design", "fixed", "base", "sweep",
                       "finest", "quantity", "prepare"});

@@ -1,7 +1,6 @@
 #include "suffuse/lbm/flow_case.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +13,7 @@
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
+#include "suffuse/common/toml_file.h"
 #include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::lbm {
@@ -249,21 +249,10 @@ void read_files(const std::string& file, const toml::table& root, FlowCase& flow
   refuse_shared_files(file, flow);
 }
 
-toml::table parse(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path) || !std::ifstream(path))
-    throw_user_error({"suffuse-flow", "case", path, "be a file that can be read", "check the path"});
-  try {
-    return toml::parse_file(path);
-  } catch (const toml::parse_error& error) {
-    throw UserError(
-        fmt::format("{}, line {}: {}", path, error.source().begin.line, std::string(error.description())));
-  }
-}
-
 }  // namespace
 
 FlowCase read_flow_case(const std::string& path) {
-  const toml::table root = parse(path);
+  const toml::table root = read_toml(path, "suffuse-flow");
   const Section top(
       path, "top level", &root,
       {"fluid", "lattice", "boundary", "force", "solids", "run", "monitor", "output", "restart"});

@@ -14,7 +14,8 @@ constexpr std::size_t kDirections = 19;
 
 void write_state(const std::string& path, fuzz::Bytes& bytes) {
   fuzz::Hdf5Tree file(path);
-  if (bytes.below(8) != 1) file.attribute("/", "what", bytes.below(8) == 1 ? "a poem" : "suffuse fluid state, version 1");
+  if (bytes.below(8) != 1)
+    file.attribute("/", "what", bytes.below(8) == 1 ? "a poem" : "suffuse fluid state, version 1");
   file.attribute("/", "storage", bytes.below(8) == 1 ? "float" : "double");
   file.attribute("/", "steps", 12, bytes);
   file.attribute("/", "at_odd_step", 0, bytes);

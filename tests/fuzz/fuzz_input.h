@@ -26,8 +26,8 @@ class Bytes {
   int below(int most) { return next() % most; }
   /// Values that readers trip over: small and huge, negative, not numbers.
   double number() {
-    static constexpr double kOdd[] = {0,    1,     -1,   0.5,   1e-4, 2,     1e300, -1e300, 1e-300,
-                                      1e18, -1e18, 2e31, 9.5e9, 4e18, 1e-12, 3};
+    static constexpr double kOdd[] = {0,      1,    -1,    0.5,  1e-4,  2,    1e300, -1e300,
+                                      1e-300, 1e18, -1e18, 2e31, 9.5e9, 4e18, 1e-12, 3};
     switch (below(4)) {
       case 0:
         return below(256);
@@ -57,7 +57,8 @@ class Folder {
  public:
   Folder() {
     const std::filesystem::path memory = "/dev/shm";
-    const auto parent = std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+    const auto parent =
+        std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
     path_ = parent / ("suffuse-fuzz-" + std::to_string(getpid()));
     std::filesystem::create_directories(path_);
   }

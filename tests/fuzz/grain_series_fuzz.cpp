@@ -13,7 +13,8 @@ void write_step(fuzz::Hdf5Tree& file, const std::string& step, fuzz::Bytes& byte
   file.group(step + "/grains");
   file.array(step + "/grains/id", {3}, {1, 2, 3}, bytes);
   file.array(step + "/grains/radius", {3}, {1e-3, 1e-3, 5e-4}, bytes);
-  file.array(step + "/grains/position", {3, 3}, {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 2.9e-3, 2.4e-3, 1e-3, 1e-3}, bytes);
+  file.array(step + "/grains/position", {3, 3}, {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 2.9e-3, 2.4e-3, 1e-3, 1e-3},
+             bytes);
   file.group(step + "/contacts");
   file.array(step + "/contacts/ids", {2, 2}, {1, 2, 1, 3}, bytes);
   file.array(step + "/contacts/force", {2, 3}, {0, 0, -1, -1, 0, 0.1}, bytes);
@@ -32,7 +33,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = fuzz::folder().file("grains.h5");
   {
     fuzz::Hdf5Tree file(path);
-    static constexpr const char* kNames[] = {"/step_0", "/step_000000000100", "/step_100", "/step_x", "/step_-3", "/step_99999999999999999999"};
+    static constexpr const char* kNames[] = {"/step_0", "/step_000000000100", "/step_100",
+                                             "/step_x", "/step_-3",           "/step_99999999999999999999"};
     for (int k = 1 + bytes.below(3); k > 0; --k) write_step(file, kNames[bytes.below(6)], bytes);
   }
   return fuzz::refused_or_read([&] {

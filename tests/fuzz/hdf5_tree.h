@@ -29,7 +29,8 @@ class Hdf5Tree {
 
   /// An array of the shape wanted, most often; of another shape or type, or none, otherwise. Numbers of
   /// `values`, with one now and then from the bytes.
-  void array(const std::string& name, std::vector<hsize_t> shape, const std::vector<double>& values, Bytes& bytes) {
+  void array(const std::string& name, std::vector<hsize_t> shape, const std::vector<double>& values,
+             Bytes& bytes) {
     const int fault = bytes.below(12);
     if (fault == 1) return;
     if (fault == 2 && !shape.empty()) shape.back() = static_cast<hsize_t>(bytes.below(6));
@@ -47,11 +48,14 @@ class Hdf5Tree {
     if (fault >= 9)
       for (int changes = 1 + bytes.below(3); count > 0 && changes > 0; --changes)
         numbers[static_cast<std::size_t>(bytes.next()) % count] = bytes.number();
-    const hid_t type = fault == 7 ? text_type() : fault == 8 ? H5Tcopy(H5T_STD_I16LE) : H5Tcopy(H5T_IEEE_F64LE);
+    const hid_t type = fault == 7   ? text_type()
+                       : fault == 8 ? H5Tcopy(H5T_STD_I16LE)
+                                    : H5Tcopy(H5T_IEEE_F64LE);
     const hid_t space = H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
     const hid_t data = H5Dcreate(id_, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
     if (data >= 0) {
-      if (fault != 7 && count > 0) H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
+      if (fault != 7 && count > 0)
+        H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data());
       H5Dclose(data);
     }
     H5Sclose(space);

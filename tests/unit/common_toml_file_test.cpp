@@ -1,0 +1,52 @@
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "suffuse/common/toml_file.h"
+#include "user_error_message.h"
+
+using namespace suffuse;
+
+namespace {
+
+struct TomlText {
+  std::string path =
+      (std::filesystem::temp_directory_path() / ("suffuse-toml-" + std::to_string(getpid()))).string();
+  explicit TomlText(const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+  ~TomlText() { std::filesystem::remove(path); }
+};
+
+std::string refusal_of(const std::string& text) {
+  const TomlText file(text);
+  return suffuse::message_of([&] { read_toml(file.path, "suffuse-study"); });
+}
+
+}  // namespace
+
+TEST_CASE("Letters outside of ASCII are read in quotes and comments") {
+  const TomlText file(
+      "# Körnung\ntitle = \"Säule \\\" ü\"  # ß\npath = 'größe\\'\ntext = \"\"\"\nzwölf \"\" ä\n\"\"\"\nn = "
+      "3\n");
+  const toml::table table = read_toml(file.path, "suffuse-study");
+  CHECK(table["title"].value<std::string>() == "Säule \" ü");
+  CHECK(table["path"].value<std::string>() == "größe\\");
+  CHECK(table["text"].value<std::string>() == "zwölf \"\" ä\n");
+  CHECK(table["n"].value<int>() == 3);
+}
+
+TEST_CASE("Elsewhere they are refused with their line, as toml++ cannot take them") {
+  CHECK_THAT(refusal_of("n = 1\nlänge = 2\n"), Catch::Contains("line 2: letters outside of ASCII"));
+  CHECK_THAT(refusal_of("text = \"\"\"\n\"\"\"\nʋ = 1\n"), Catch::Contains("line 3: letters"));
+  CHECK_THAT(refusal_of("a = \"ends never\nä = 1\n"), Catch::Contains("line 2: letters"));
+}
+
+TEST_CASE("What is no TOML is told with its line") {
+  CHECK_THAT(refusal_of("n = 1\nn 2\n"), Catch::Contains("line 2: "));
+  CHECK_THAT(suffuse::message_of([] { read_toml("/tmp", "suffuse-study"); }),
+             Catch::Contains("suffuse-study: file = /tmp, must be a file"));
+  const TomlText marked("\xEF\xBB\xBFn = 1\n");
+  CHECK(read_toml(marked.path, "x").contains("n"));
+}
