@@ -7,15 +7,15 @@
 #include <cmath>
 #include <map>
 
+#include "../liggghts/fluid_box.h"
 #include "../liggghts/restart_commands.h"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
+#include "lbm_accuracy.h"
 #include "lbm_plan.h"
 #include "lbm_run.h"
 #include "modify.h"
-#include "region.h"
-#include "region_block.h"
 #include "register_styles.h"
 #include "saved_set.h"
 #include "styles/fix_lubrication.h"
@@ -44,30 +44,6 @@ void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   instance->line(narg, arg);
 }
 
-/// Low corner and size of the fluid: a block region, or LIGGGHTS's box.
-struct FluidBox {
-  Vec3 low, size;
-};
-FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::string& region) {
-  if (region.empty()) return {port.box_low(), port.box_size()};
-  std::string name = region;
-  const int index = lmp->domain->find_region(name.data());
-  if (index < 0 || std::string(lmp->domain->regions[index]->style) != "block")
-    throw_user_error({"lbm lattice", "region", region, "be a block region that exists",
-                      fmt::format("write `region {} block ...` before", region)});
-  const auto* block = lmp->domain->regions[index];
-  FluidBox box{{block->extent_xlo, block->extent_ylo, block->extent_zlo},
-               {block->extent_xhi, block->extent_yhi, block->extent_zhi}};
-  const Vec3 low = port.box_low(), high = low + port.box_size();
-  for (int a = 0; a < 3; ++a) {
-    box.low[a] = std::max(box.low[a], low[a]);
-    box.size[a] = std::min(box.size[a], high[a]) - box.low[a];
-    if (lmp->domain->periodicity[a] != 0 && box.size[a] < 0.999999 * port.box_size()[a])
-      throw_user_error({"lbm lattice", "region", region, "span the whole box along a periodic axis", ""});
-  }
-  return box;
-}
-
 }  // namespace
 
 void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
@@ -82,9 +58,7 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
       "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
-      "plan, "
-      "run, "
-      "restart, clear";
+      "plan, accuracy, run, restart, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
@@ -106,6 +80,9 @@ void LbmCommand::line(int narg, char** arg) {
     read_output(reader, settings_);
   } else if (word == "plan") {
     plan(reader);
+  } else if (word == "accuracy") {
+    refuse_after_start(word);
+    accuracy(reader);
   } else if (word == "run") {
     run(reader);
   } else if (word == "restart") {
@@ -137,7 +114,11 @@ void LbmCommand::refuse_after_start(const std::string& word) const {
 void LbmCommand::require_lattice(const std::string& who) const {
   if (!settings_.lattice_given)
     throw_user_error({who, "lattice", "none", "be defined before",
-                      "write `lbm lattice spacing 4e-5 relaxation_time 0.8`"});
+                      "write `lbm lattice spacing 4e-5 relaxation_time 0.8`, or `lbm accuracy 3%`"});
+  require_box(who);
+}
+
+void LbmCommand::require_box(const std::string& who) const {
   if (std::string(lmp_->update->unit_style) != "si")
     throw_user_error(
         {who, "units", lmp_->update->unit_style, "be si", "write `units si` at the script's head"});
@@ -306,6 +287,17 @@ int LbmCommand::choose_substeps() {
   const int substeps = asked > 0 ? asked : needed;
   port_->set_time_step(fluid_step / substeps);
   return substeps;
+}
+
+void LbmCommand::accuracy(ArgumentReader& reader) {
+  const AccuracyRequest request = read_accuracy(reader);
+  require_box(reader.who());
+  const bool made_port = port_ == nullptr;
+  if (made_port) port_ = std::make_unique<LiggghtsPort>(lmp_);
+  set_accuracy(lmp_, request, *port_, settings_);
+  if (!made_port) return;
+  port_->withdraw();
+  port_.reset();
 }
 
 void LbmCommand::plan(ArgumentReader& reader) {

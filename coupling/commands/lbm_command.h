@@ -30,10 +30,12 @@ class LbmCommand {
 
  private:
   void restart(ArgumentReader& reader);
+  void accuracy(ArgumentReader& reader);
   void plan(ArgumentReader& reader);
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
+  void require_box(const std::string& who) const;
   void refuse_double_buoyancy() const;
   CoupledSettings resolved_settings(std::vector<EffectChoice>& effects);
   lbm::Decomposition decomposition(Vec3& low);

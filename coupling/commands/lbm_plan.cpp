@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "../liggghts/fine_diameter.h"
 #include "comm.h"
 #include "lammps.h"
 #include "manifest.h"
@@ -85,29 +85,8 @@ double grain_seconds(LAMMPS_NS::LAMMPS* lmp, const PastRun& past, double grain_s
   return grain_steps / speed;
 }
 
-/// The diameter, m, below which a tenth of the grains' surface lies: of a gap-graded bed that of its fines,
-/// whatever a few lone grains have. Collective.
-double fine_diameter(const LiggghtsPort& port, const LiggghtsPort::Summary& grains) {
-  constexpr int classes = 64;
-  constexpr double share = 0.1;
-  const double least = 2 * grains.smallest_radius, growth = grains.largest_radius / grains.smallest_radius;
-  if (growth < 1 + 1e-9) return least;
-  std::vector<double> bounds;
-  for (int n = 1; n < classes; ++n) bounds.push_back(least * std::pow(growth, double(n) / classes));
-  const std::vector<double> counts = port.grains_by_size(bounds);
-  std::vector<double> surfaces;
-  for (std::size_t n = 0; n < counts.size(); ++n) {
-    const double middle = least * std::pow(growth, (static_cast<double>(n) + 0.5) / classes);
-    surfaces.push_back(counts[n] * middle * middle);
-  }
-  double below = -share * std::accumulate(surfaces.begin(), surfaces.end(), 0.);
-  for (std::size_t n = 0; n < bounds.size(); ++n)
-    if ((below += surfaces[n]) >= 0) return n == 0 ? least : bounds[n - 1];  // the low end of the class
-  return bounds.back();
-}
-
 /// Error of the permeability where the coefficient is calibrated; empty otherwise. `cells` a diameter of the
-/// finest tenth of the surface: the fines of a graded bed make its pores.
+/// finest quarter of the surface: the fines of a graded bed make its pores.
 std::string error_line(const SolidSettings& solids, double cells) {
   const bool calibrated = solids.automatic_coefficient &&
                           solids.cells.solid_operator == lbm::SolidOperator::force &&
@@ -115,7 +94,7 @@ std::string error_line(const SolidSettings& solids, double cells) {
   if (!calibrated) return "";
   return fmt::format(
       "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %), by the "
-      "{:.2g} cells per diameter of the finest tenth of the grains' surface\n",
+      "{:.2g} cells per diameter of the finest quarter of the grains' surface\n",
       100 * expected_permeability_error(cells), 100 * largest_permeability_error(cells), cells);
 }
 

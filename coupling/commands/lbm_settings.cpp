@@ -49,9 +49,11 @@ void refuse_repeated(const ArgumentReader& reader, const std::string& word, bool
 }  // namespace
 
 void read_preset(ArgumentReader& reader, LbmSettings& settings) {
-  enum class Preset { thesis, standard };
-  const auto preset =
-      choose<Preset>(reader, "preset", {{"thesis", Preset::thesis}, {"default", Preset::standard}});
+  enum class Preset { thesis, thesis_appendix, standard };
+  const auto preset = choose<Preset>(reader, "preset",
+                                     {{"thesis", Preset::thesis},
+                                      {"thesis_appendix", Preset::thesis_appendix},
+                                      {"default", Preset::standard}});
   const CoupledSettings standard;
   auto& coupled = settings.coupled;
   coupled.fluid.collision = standard.fluid.collision;
@@ -60,11 +62,13 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
   coupled.average_force = standard.average_force;
   coupled.virtual_mass = standard.virtual_mass;
   if (preset == Preset::standard) return;
-  // Thesis sections 3.3 and 3.4, Appendix C: one relaxation time, SC1 with Noble and Torczynski's weighting,
-  // 5 x 5 x 5 sub-cells, no lubrication.
+  // Thesis sections 3.3 and 3.4, Appendix C: one relaxation time, SC1, 5 x 5 x 5 sub-cells, no lubrication.
+  // The text weights cells after Noble and Torczynski (eq 3.34); the appendix includes LBDEMcoupling's
+  // headers without the switch that turns this on, and B is the solid fraction then.
   coupled.fluid.collision.collision_operator = lbm::CollisionOperator::bgk;
   coupled.solids.cells.solid_operator = lbm::SolidOperator::sc1;
-  coupled.solids.cells.weighting = lbm::SolidWeighting::noble_torczynski;
+  coupled.solids.cells.weighting =
+      preset == Preset::thesis ? lbm::SolidWeighting::noble_torczynski : lbm::SolidWeighting::fraction;
   coupled.solids.automatic_coefficient = false;
   coupled.solids.fraction = FractionMethod::subcells;
   coupled.solids.subcells = 5;

@@ -175,7 +175,7 @@ def check_time_over_restart(program):
 
 
 def check_plan_of_graded_bed(program):
-    """A plan's error is that of the finest tenth of the surface: fines of two cells make a bed of coarse grains of eight
+    """A plan's error is that of the finest quarter of the surface: fines of two cells make a bed of coarse grains of eight
     cells err by a fifth, and two lone fine grains do not."""
     def plan(fines):
         coarse = [(x, y, z) for x in (1, 3) for y in (1, 3) for z in (1, 2.5, 4)]

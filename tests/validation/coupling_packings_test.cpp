@@ -3,29 +3,16 @@
 // (tests/data/packing_drags.csv, docs/decisions/solid-operator.md).
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "drag_of_packings.h"
 #include "link_wise_stokes.h"
+#include "packing_reference.h"
 
 using namespace suffuse;
 using namespace suffuse::coupling;
 
 namespace {
-
-double reference_drag(const std::string& packing) {
-  std::ifstream file(std::string(SUFFUSE_TEST_DATA) + "/packing_drags.csv");
-  for (std::string line; std::getline(file, line);) {
-    std::stringstream row(line);
-    std::string name, drag;
-    std::getline(row, name, ',');
-    std::getline(row, drag, ',');
-    if (name == packing) return std::stod(drag);
-  }
-  throw std::runtime_error("no " + packing + " in packing_drags.csv");
-}
 
 /// Per cent, the mean over two places of the packing on the lattice.
 double error_percent(const std::string& name, double diameter, DragRun run) {
@@ -35,7 +22,7 @@ double error_percent(const std::string& name, double diameter, DragRun run) {
     run.offset = offset;
     sum += drag_of(packing, diameter, run).drag / 2;
   }
-  return 100 * (sum / reference_drag(name) - 1);
+  return 100 * (sum / testing::reference_drag(name) - 1);
 }
 
 }  // namespace

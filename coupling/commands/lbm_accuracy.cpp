@@ -1,0 +1,201 @@
+#include "lbm_accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../liggghts/fine_diameter.h"
+#include "../liggghts/fluid_box.h"
+#include "domain.h"
+#include "lammps.h"
+#include "suffuse/common/error.h"
+#include "suffuse/coupling/accuracy_choice.h"
+#include "suffuse/coupling/effects.h"
+#include "suffuse/micromechanics/seepage.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+/// Water between grains at its fastest, over its mean there: in packings of spheres some two to three.
+constexpr double kFastestInPores = 2.5;
+/// Solid fraction from which on grains are a bed, whose drag is Ergun's and which carries its water along.
+constexpr double kBed = 0.3;
+/// And below which Ergun's law, made for beds, says nothing of the speed.
+constexpr double kSparse = 0.05;
+/// Of the critical gradient: what a bed whose drive is not known yet will be driven by.
+constexpr double kDriveOfBed = 1.5;
+
+/// What the script says of flow and grains, SI.
+struct Drive {
+  double superficial = 0, pressure_range = 0, grain_speed = 0;
+  std::string from;  ///< in words
+};
+
+/// Drops of pressure along each axis, Pa, from faces and gradient as they are now.
+Vec3 pressure_drops(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const Vec3& size) {
+  Vec3 drops = settings.pressure_gradient.now(lmp).cwiseProduct(size).cwiseAbs();
+  for (std::size_t a = 0; a < 3; ++a) {
+    const ScriptFace &low = settings.faces[2 * a], &high = settings.faces[2 * a + 1];
+    if (low.kind == lbm::FaceKind::pressure && high.kind == lbm::FaceKind::pressure)
+      drops[static_cast<int>(a)] = std::abs(low.pressure.now(lmp) - high.pressure.now(lmp));
+  }
+  return drops;
+}
+
+double speed_of_faces(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings) {
+  double speed = 0;
+  for (const ScriptFace& face : settings.faces)
+    if (face.kind == lbm::FaceKind::velocity) speed = std::max(speed, face.velocity.now(lmp).norm());
+  return speed;
+}
+
+/// In a bed water flows as Ergun says, and grains that may move are lifted and go with it; grains apart from
+/// each other fall alone.
+Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const LiggghtsPort::Summary& grains,
+               bool grains_move, const Vec3& size) {
+  const lbm::UnitsRequest& units = settings.coupled.units;
+  const double gravity = settings.gravity.now(lmp).norm(), heavier = grains.largest_density / units.density;
+  const bool bed = grains.packing > kBed;
+  const double porosity = 1 - std::min(grains.packing, 0.7);
+  const micromechanics::SeepageFluid water{units.density, units.viscosity, 9.81};
+  const Vec3 drops = pressure_drops(lmp, settings, size);
+  Drive drive;
+  drive.superficial = speed_of_faces(lmp, settings);
+  drive.from = "the faces' velocity";
+  drive.pressure_range = drops.maxCoeff();
+  double gradient = drops.cwiseQuotient(size).maxCoeff() / (units.density * 9.81);
+  if (bed && grains_move && gravity > 0) {
+    const double lifting = kDriveOfBed * std::abs(heavier - 1) * grains.packing * gravity / 9.81;
+    gradient = std::max(gradient, lifting);
+    drive.pressure_range = std::max(drive.pressure_range, lifting * units.density * 9.81 * size.maxCoeff());
+  }
+  if (grains.packing > kSparse && gradient > 0) {
+    const double by_ergun = micromechanics::velocity_ergun(gradient, grains.sauter_diameter, porosity, water);
+    if (by_ergun > drive.superficial)
+      drive.from = fmt::format("Ergun's at a gradient of {:.3g}", gradient), drive.superficial = by_ergun;
+  }
+  if (grains_move && bed) drive.grain_speed = drive.superficial / porosity;
+  if (grains_move && !bed) {
+    drive.grain_speed = std::max(
+        grains.speed, free_settling_velocity(2 * grains.largest_radius, heavier, gravity, units.viscosity));
+    if (drive.grain_speed > drive.superficial) drive.from = "the fall of the largest grain alone";
+  }
+  return drive;
+}
+
+AccuracyScene scene_of(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
+                       const LbmSettings& settings, std::string& velocity_from) {
+  const LiggghtsPort::Summary grains = port.summary();
+  AccuracyScene scene;
+  scene.size = fluid_box(lmp, port, request.region).size;
+  scene.density = settings.coupled.units.density;
+  scene.viscosity = settings.coupled.units.viscosity;
+  if (grains.grains == 0) return scene;
+  scene.fine_diameter = fine_diameter(port, grains);
+  const Drive drive = drive_of(lmp, settings, grains, port.anything_moves(), scene.size);
+  const double porosity = 1 - std::min(grains.packing, 0.7);
+  const double fastest = grains.packing > kBed ? kFastestInPores * drive.superficial / porosity
+                                               : std::max(1.5 * drive.superficial, drive.grain_speed);
+  velocity_from = request.largest_velocity ? "as given" : "from " + drive.from;
+  scene.velocity = request.largest_velocity.value_or(fastest);
+  scene.pressure_range = drive.pressure_range;
+  // A bed's grains carry their water along; a grain alone does not.
+  if (grains.packing > kBed && port.anything_moves())
+    scene.grain_speed = std::min(drive.grain_speed, scene.velocity);
+  return scene;
+}
+
+std::string percent(double share) {
+  return fmt::format("{:.2g} %", 100 * share);
+}
+
+std::string lattice_line(const AccuracyChoice& choice, const AccuracyScene& scene,
+                         const std::string& region) {
+  return fmt::format("lbm lattice spacing {} relaxation_time {} max_velocity {} precision {}{}",
+                     choice.spacing, choice.relaxation_time, scene.velocity,
+                     choice.precision == lbm::Precision::float_precision ? "float" : "double",
+                     region.empty() ? "" : " region " + region);
+}
+
+std::string neighbour_line(const char* name, double cells, double accuracy, const AccuracyScene& scene,
+                           const AccuracyChoice& chosen) {
+  const AccuracyChoice other = choice_with_cells(cells, accuracy, scene);
+  return fmt::format("lbm accuracy: {:<11}{:.2g} cells: about {}, {:.2g} times the time\n", name, other.cells,
+                     percent(other.errors.together()), other.cost / chosen.cost);
+}
+
+std::string text_of(const AccuracyChoice& choice, const AccuracyScene& scene, const AccuracyRequest& request,
+                    const std::string& velocity_from) {
+  const AccuracyErrors& errors = choice.errors;
+  std::string text = fmt::format("lbm accuracy: {} asked for, about {} to be expected\n",
+                                 percent(request.accuracy), percent(errors.together()));
+  text += fmt::format(
+      "lbm accuracy: cells      {:.3g} per diameter of the finest quarter of the grains' surface ({:.4g} m): "
+      "{}, "
+      "worst packing tried {}\n",
+      choice.cells, scene.fine_diameter, percent(errors.resolution),
+      percent(largest_permeability_error(choice.cells)));
+  text += fmt::format(
+      "lbm accuracy: time step  {:.4g} s, bound by {}: Mach number {:.2g} ({}) at {:.3g} m/s, {}; density "
+      "{}\n",
+      choice.time_step, choice.bound, choice.mach, percent(errors.compressibility), scene.velocity,
+      velocity_from, percent(errors.density));
+  text += fmt::format("lbm accuracy: precision  {}\n",
+                      choice.precision == lbm::Precision::float_precision
+                          ? "float: five digits are the same"
+                          : "double: slow water, or fine accuracy, would lose digits");
+  if (errors.motion > 0)
+    text += fmt::format("lbm accuracy: collision  {}: grains at {:.2g} viscosities a cell ({})\n",
+                        name_of(choice.collision), scene.grain_speed * choice.spacing / scene.viscosity,
+                        percent(errors.motion));
+  text += neighbour_line("cheaper", 0.8 * choice.cells, request.accuracy, scene, choice);
+  text += neighbour_line("dearer", 1.25 * choice.cells, request.accuracy, scene, choice);
+  return text + "lbm accuracy: the same is `" + lattice_line(choice, scene, request.region) + "`\n";
+}
+
+}  // namespace
+
+AccuracyRequest read_accuracy(ArgumentReader& reader) {
+  AccuracyRequest request;
+  const std::string given = reader.word("accuracy, such as 3%");
+  try {
+    std::size_t used = 0;
+    const double value = std::stod(given, &used);
+    const std::string unit = given.substr(used);
+    if ((!unit.empty() && unit != "%") || !(value > 0)) throw std::invalid_argument(given);
+    request.accuracy = unit.empty() ? value : value / 100;
+  } catch (const std::logic_error&) {
+    throw_user_error({reader.who(), "accuracy", given, "be a share such as 3% or 0.03", ""});
+  }
+  while (!reader.done()) {
+    if (reader.keyword("max_velocity"))
+      request.largest_velocity = reader.positive("max_velocity");
+    else if (reader.keyword("region"))
+      request.region = reader.word("region");
+    else
+      reader.unknown(reader.word("keyword"), "max_velocity, region");
+  }
+  return request;
+}
+
+void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
+                  LbmSettings& settings) {
+  std::string velocity_from;
+  const AccuracyScene scene = scene_of(lmp, request, port, settings, velocity_from);
+  const AccuracyChoice choice = choose_for_accuracy(request.accuracy, scene);
+  lbm::UnitsRequest& units = settings.coupled.units;
+  units.spacing = choice.spacing;
+  units.relaxation_time = choice.relaxation_time;
+  units.time_step.reset();
+  units.mach.reset();
+  units.largest_velocity = scene.velocity;
+  settings.coupled.fluid.precision = choice.precision;
+  settings.coupled.fluid.collision.collision_operator = choice.collision;
+  settings.region = request.region;
+  settings.lattice_given = true;
+  tell(lmp, text_of(choice, scene, request, velocity_from));
+}
+
+}  // namespace suffuse::coupling

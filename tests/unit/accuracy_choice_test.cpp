@@ -1,0 +1,94 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "suffuse/coupling/accuracy_choice.h"
+#include "suffuse/coupling/automatic_coefficient.h"
+#include "user_error_message.h"
+
+using namespace suffuse;
+using namespace suffuse::coupling;
+
+namespace {
+
+AccuracyScene bed() {
+  AccuracyScene scene;
+  scene.fine_diameter = 4e-4;
+  scene.velocity = 0.02;
+  scene.pressure_range = 50;
+  scene.size = {2e-3, 2e-3, 6e-3};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Finer accuracy takes more cells and smaller steps, and every error keeps to its share") {
+  double cost = 0;
+  for (const double accuracy : {0.2, 0.1, 0.05, 0.03, 0.02}) {
+    const AccuracyChoice choice = choose_for_accuracy(accuracy, bed());
+    CAPTURE(accuracy, choice.cells, choice.mach);
+    CHECK(1.5 * choice.errors.together() <= accuracy);
+    CHECK(choice.errors.compressibility == Approx(choice.mach * choice.mach));
+    CHECK(choice.errors.compressibility + 1e-12 >= 0);
+    CHECK(choice.errors.compressibility <= accuracy / 3 * (1 + 1e-9));
+    CHECK(choice.errors.density <= accuracy / 3 * (1 + 1e-9));
+    CHECK(choice.relaxation_time <= 1 + 1e-9);
+    CHECK(choice.mach <= 0.2 + 1e-9);
+    // nu = (tau - 1/2)/3 dx^2/dt, and whole cells
+    CHECK((choice.relaxation_time - 0.5) / 3 * choice.spacing * choice.spacing / choice.time_step ==
+          Approx(1e-6));
+    for (int a = 0; a < 3; ++a)
+      CHECK(bed().size[a] / choice.spacing == Approx(std::round(bed().size[a] / choice.spacing)));
+    CHECK(choice.cost > cost);
+    cost = choice.cost;
+  }
+}
+
+TEST_CASE("What bounds the time step is named, and is the bound") {
+  AccuracyScene scene = bed();
+  CHECK(std::string(choose_for_accuracy(0.03, scene).bound) == "the density difference");
+  scene.pressure_range = 0;
+  const AccuracyChoice by_mach = choose_for_accuracy(0.03, scene);
+  CHECK(std::string(by_mach.bound) == "the Mach number");
+  CHECK(by_mach.mach == Approx(std::sqrt(0.01)));
+  scene.velocity = 1e-6;
+  const AccuracyChoice slow = choose_for_accuracy(0.03, scene);
+  CHECK(std::string(slow.bound) == "the relaxation time");
+  CHECK(slow.relaxation_time == Approx(1));
+  CHECK(slow.precision == lbm::Precision::double_precision);
+  CHECK(by_mach.precision == lbm::Precision::float_precision);
+}
+
+TEST_CASE("Grains that carry their water fast take the collision that follows them, or are refused") {
+  AccuracyScene scene = bed();
+  CHECK(choose_for_accuracy(0.05, scene).collision == lbm::CollisionOperator::trt);
+  scene.grain_speed = 0.03;
+  scene.velocity = 0.05;
+  CHECK(choose_for_accuracy(0.05, scene).collision == lbm::CollisionOperator::trt_comoving);
+}
+
+TEST_CASE("What cannot be had is refused with what is missing") {
+  AccuracyScene scene = bed();
+  CHECK_THAT(message_of([&] { choose_for_accuracy(0.001, scene); }), Catch::Contains("accuracy = 0.1 %"));
+  CHECK_THAT(message_of([&] { choose_for_accuracy(0.5, scene); }), Catch::Contains("accuracy = 50 %"));
+  scene.size = {2e-3, 2.7182818e-3, 6e-3};
+  CHECK_THAT(message_of([&] { choose_for_accuracy(0.03, scene); }),
+             Catch::Contains("whole numbers of one cell"));
+  scene = bed();
+  scene.velocity = 0;
+  CHECK_THAT(message_of([&] { choose_for_accuracy(0.03, scene); }), Catch::Contains("max_velocity"));
+  scene.fine_diameter = 0;
+  CHECK_THAT(message_of([&] { choose_for_accuracy(0.03, scene); }), Catch::Contains("grains = none"));
+}
+
+TEST_CASE("A spacing that fits is the largest up to the one wanted") {
+  CHECK(fitting_spacing({1, 2, 3}, 0.3) == Approx(0.25));
+  CHECK(fitting_spacing({1, 1, 1}, 1) == Approx(1));
+  CHECK(fitting_spacing({1, 1.234567, 1}, 0.11) == 0);
+}
+
+TEST_CASE("A sphere falls by Stokes' law when small, by Newton's when large") {
+  const double g = 9.81, nu = 1e-6;
+  CHECK(free_settling_velocity(1e-5, 2.65, g, nu) == Approx(1.65 * g * 1e-10 / (18 * nu)).epsilon(0.01));
+  CHECK(free_settling_velocity(0.1, 2.65, g, nu) == Approx(std::sqrt(1.65 * g * 0.1 / 0.3)).epsilon(0.01));
+  CHECK(free_settling_velocity(1e-3, 1, g, nu) == 0);
+}

@@ -1,0 +1,76 @@
+// What `lbm accuracy` chooses for packings that nothing was fitted to: the target is met, and not at a price
+// that a sweep of the resolution undercuts by much. References: tests/data/packing_drags.csv.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "drag_of_packings.h"
+#include "packing_reference.h"
+#include "suffuse/coupling/accuracy_choice.h"
+#include "user_error_message.h"
+
+using namespace suffuse;
+using namespace suffuse::coupling;
+
+namespace {
+
+double sauter(const Packing& packing) {
+  double volume = 0, surface = 0;
+  for (const double r : packing.radii) volume += 2 * r * r * r, surface += r * r;
+  return volume / surface;
+}
+
+/// Below which a quarter of the surface lies.
+double fine_diameter(const Packing& packing) {
+  std::vector<double> radii = packing.radii;
+  std::sort(radii.begin(), radii.end());
+  const double all = std::inner_product(radii.begin(), radii.end(), radii.begin(), 0.);
+  double below = 0;
+  for (const double r : radii)
+    if ((below += r * r) >= 0.25 * all) return 2 * r;
+  return 2 * radii.back();
+}
+
+/// A packing in a cube of 1 mm.
+AccuracyScene scene_of(const Packing& packing) {
+  AccuracyScene scene;
+  scene.size = Vec3::Constant(1e-3);
+  scene.fine_diameter = 1e-3 * fine_diameter(packing);
+  scene.velocity = 1e-4;
+  scene.pressure_range = 1;
+  return scene;
+}
+
+double error_at(const std::string& name, const Packing& packing, double spacing) {
+  DragRun run;
+  double sum = 0;
+  for (const double offset : {0.3, 0.8}) {
+    run.offset = offset;
+    sum += drag_of(packing, 1e-3 * sauter(packing) / spacing, run).drag / 2;
+  }
+  return std::abs(sum / testing::reference_drag(name) - 1);
+}
+
+}  // namespace
+
+TEST_CASE("The accuracy asked for is met on packings that nothing was fitted to, near the least price") {
+  const std::string name = GENERATE("random:0.4:64:31", "random:0.58:64:31", "spread:0.58:64:31:0.4");
+  const double accuracy = GENERATE(0.1, 0.05, 0.03);
+  const Packing packing = make_packing(name);
+  const AccuracyScene scene = scene_of(packing);
+  const AccuracyChoice choice = choose_for_accuracy(accuracy, scene);
+  CAPTURE(name, accuracy, choice.cells, choice.relaxation_time);
+  CHECK(error_at(name, packing, choice.spacing) < accuracy);
+  // The cheapest of a sweep from which on every finer lattice keeps to the accuracy, too.
+  double least = choice.cost;
+  for (double cells = choice.cells; cells > 2; cells -= 0.25) {
+    const AccuracyChoice other = choice_with_cells(cells, accuracy, scene);
+    if (error_at(name, packing, other.spacing) > accuracy) break;
+    least = std::min(least, other.cost);
+  }
+  // The choice does not know that this packing errs less than most, and a cube of three diameters has steps of a
+  // quarter in price from one whole number of cells to the next.
+  CAPTURE(choice.cost / least);
+  CHECK(choice.cost < 5 * least);
+}
