@@ -80,6 +80,23 @@ std::string bed_text(const CoupledSimulation& simulation, const LiggghtsPort::Su
       grains.extent[axis], 1 - grains.packing, time);
 }
 
+/// Below this relaxation time central moments give energy to water that grains stir (hard case
+/// low_viscosity).
+constexpr double kLeastForCentralMoments = 0.503;
+
+std::string collision_note(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains) {
+  const lbm::CollisionSettings& collision = simulation.fluid().settings().collision;
+  const double tau = simulation.units().relaxation_time();
+  if (grains.grains == 0 || collision.collision_operator != lbm::CollisionOperator::central_moments ||
+      tau >= kLeastForCentralMoments)
+    return "";
+  return fmt::format(
+      "central_moments gains energy where grains stir the water at a relaxation time below {:g}, here "
+      "{:.4g}; "
+      "take `lbm collision trt` with `lbm effect turbulence on`",
+      kLeastForCentralMoments, tau);
+}
+
 }  // namespace
 
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
@@ -109,6 +126,8 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   for (const EffectChoice& effect : effects)
     lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
   if (const std::string note = resolution_note(grains, units.spacing()); !note.empty())
+    lines.push_back("note: " + note);
+  if (const std::string note = collision_note(simulation, grains); !note.empty())
     lines.push_back("note: " + note);
   for (const std::string& warning : units.warnings()) lines.push_back("note: " + warning);
   return lines;

@@ -19,8 +19,9 @@ double mach_of(const FluidExtremes& extremes) {
 std::string remedy(const Units& units, double share) {
   if (units.relaxation_time() < 0.52)
     return fmt::format(
-        "relaxation_time is {:.4g}, close to its lower limit: use a smaller spacing, or `lbm collision "
-        "central_moments`, or change boundary values more slowly",
+        "relaxation_time is {:.4g}, close to its lower limit: use a smaller spacing, or an eddy viscosity "
+        "(`lbm "
+        "effect turbulence on`), or change boundary values more slowly",
         units.relaxation_time());
   return fmt::format(
       "use a timestep below {:.3g} s (relaxation_time below {:.4g}), or change boundary values more slowly",

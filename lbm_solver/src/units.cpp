@@ -127,7 +127,7 @@ std::vector<std::string> Units::warnings() const {
   if (grid_reynolds() > 10)
     lines.push_back(
         fmt::format("grid Reynolds number {:.0f}: the flow changes too fast from cell to cell; lower "
-                    "spacing, or take collision central_moments or an eddy viscosity",
+                    "spacing, or take an eddy viscosity (`lbm effect turbulence on`)",
                     grid_reynolds()));
   if (density_difference() > 0.03)
     lines.push_back(
