@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""campaign.py --programs FOLDER --campaigns DIR: two tiny samples from grading to table and figure, killed once on the way.
+"""campaign.py --programs FOLDER --campaigns DIR: two tiny samples from grading to table and figure, killed twice on the way.
 
-Snakemake and all that it started are ended by SIGKILL while a sample is compressed; the same command again goes on from the
-restart files and ends with results, whose series have no gap and no row twice.
+Snakemake and all that it started are ended by SIGKILL while a sample is compressed, and the program alone while one is sheared; the same command
+again goes on from the restart files and ends with results, whose series have no gap and no row twice.
 """
 import argparse
 import csv
@@ -46,6 +46,28 @@ def killed_on_the_way(campaign, tiny):
     os.killpg(running.pid, signal.SIGKILL)
     running.communicate()
     expect(not (campaign.folder / "results.csv").exists(), "killed too late")
+
+
+def kill_the_shear(folder):
+    """The program alone, as a machine without memory does: Snakemake sees a step that failed."""
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "cmdline").read_bytes()
+            if b"in.constant_p_shear" in words and b"suffuse\0" in words.split(b"-in")[0] and os.readlink(process / "cwd") == str(folder):
+                os.kill(int(process.name), signal.SIGKILL)
+        except (FileNotFoundError, ProcessLookupError, PermissionError):
+            pass
+
+
+def killed_while_shearing(campaign, tiny):
+    running = campaign.start(*tiny, "--nolock", "--rerun-incomplete")
+    began = time.time()
+    while not list(campaign.folder.glob("samples/*/shear/shear.*.restart")):
+        expect(running.poll() is None and time.time() - began < 200, "no restart file of the shear")
+        time.sleep(0.02)
+    kill_the_shear(campaign.folder.resolve())
+    screen = running.communicate()[0]
+    expect(running.returncode != 0 and not (campaign.folder / "results.csv").exists(), f"killed too late:\n{(screen or '')[-2000:]}")
 
 
 def check_series(path, samples):
@@ -101,16 +123,20 @@ def main():
         check_plan(campaign)
         check_mistakes(campaign)
         killed_on_the_way(campaign, tiny)
+        killed_while_shearing(campaign, tiny)
         screen, code = campaign.run(*tiny, "--nolock", "--rerun-incomplete")
         expect(code == 0, screen[-3000:])
-        expect("goes on from compression." in screen, f"nothing was continued:\n{screen}")
+        expect("goes on from shear." in screen, f"nothing was continued:\n{screen}")
         check_results(folder)
         for series in folder.glob("samples/*/compression.csv"):
             check_series(series, 20)
-        check_series(next(folder.glob("samples/*/shear/shear.csv")), 5)
+        sheared = next(folder.glob("samples/*/shear/shear.csv"))
+        check_series(sheared, 5)
+        strains = columns(sheared)["axial_strain"]
+        expect(strains[0] < 0.05 * strains[-1], f"the part before the kill is gone: begins at a strain of {strains[0]}")
         screen, code = campaign.run(*tiny, "--nolock")
         expect(code == 0 and "Nothing to be done" in screen, "a finished campaign is done again")
-    print("campaign: killed once, continued, results complete")
+    print("campaign: killed twice, continued, results complete")
 
 
 if __name__ == "__main__":
