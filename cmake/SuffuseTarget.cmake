@@ -9,6 +9,8 @@ function(suffuse_compile_options target)
   endif()
   if(SUFFUSE_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    # GCC: "sanitizers may cause spurious warnings", here within std::regex.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
   if(SUFFUSE_FUZZ)

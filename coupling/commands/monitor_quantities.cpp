@@ -158,14 +158,18 @@ Quantity mass_quantity() {
                                 static_cast<double>(planes.planes());
             // Walls and symmetry let nothing in, and what leaves through a periodic face comes in by the
             // other.
-            const auto& faces = sample.simulation.fluid().settings().faces;
-            const auto through = [&](int side, const Vec3& flux) {
-              const lbm::FaceKind kind = faces[static_cast<std::size_t>(2 * sample.axis + side)].kind;
+            const lbm::FluidSettings& settings = sample.simulation.fluid().settings();
+            const auto through = [&](int side, std::size_t plane) {
+              const lbm::FaceKind kind =
+                  settings.faces[static_cast<std::size_t>(2 * sample.axis + side)].kind;
               const bool open = kind == lbm::FaceKind::velocity || kind == lbm::FaceKind::pressure;
-              return open ? flux[sample.axis] : 0;
+              // Water under pressure is denser; `incompressible` moves it at the reference density.
+              const double denser = settings.collision.incompressible
+                                        ? 1
+                                        : units.pressure_to_density_lattice(planes.pressure[plane]);
+              return open ? units.density() * denser * planes.flux[plane][sample.axis] : 0;
             };
-            const double inflow =
-                units.density() * area * (through(0, planes.flux.front()) - through(1, planes.flux.back()));
+            const double inflow = area * (through(0, 0) - through(1, planes.planes() - 1));
             const double time = sample.simulation.time_si();
             if (state->size() != size) *state = {planes.stored_mass, time, inflow, 0};
             std::vector<double>& s = *state;

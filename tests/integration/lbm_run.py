@@ -197,6 +197,21 @@ def check_plan_of_graded_bed(program):
     expect("about 1 % (worst packing tried: 2 %), by the 7.8 cells" in plan(2), f"two lone grains: {plan(2)[-1500:]}")
 
 
+def check_mass_budget(program):
+    """Water that is 3 % denser where it comes in than where it leaves: several boxes full flow through grains that are held, and as much comes in
+    as goes out."""
+    with scratch() as folder:
+        screen = program.must_run(wet_box() + "unfix motion\nvelocity all set 0 0 0\nlbm fluid density 1000 viscosity 1e-6\n"
+                                  "lbm lattice spacing 2.5e-4 relaxation_time 0.6\nlbm boundary zlo pressure 0.14 zhi pressure 0\nlbm run 4\n"
+                                  "lbm monitor m every 0.02 file m.csv mass superficial_velocity extremes\nlbm run 4\n", folder)
+        series = columns(pathlib.Path(folder) / "m.csv")
+    box = 1000 * 4e-3 * 4e-3 * 5e-3
+    speed = series["superficial_velocity_z_m_per_s"]
+    through = sum(speed) / len(speed) * 4 / 5e-3
+    balance = max(map(abs, series["mass_balance_kg"])) / box
+    expect(through > 1 and balance < 2e-3 * through, f"{through:.2f} boxes went through, the budget misses {balance:.4f} of one\n{screen[-300:]}")
+
+
 def check_steady_and_grains(program):
     """Until steady; water without grains; grains inserted and deleted between runs leave no solids behind."""
     empty = wet_box(grains=0) + WATER + "lbm boundary zlo pressure 0.1 zhi pressure 0\n" + \
@@ -229,6 +244,7 @@ def main():
     check_restart(program)
     check_time_over_restart(program)
     check_plan_of_graded_bed(program)
+    check_mass_budget(program)
     check_steady_and_grains(program)
     print(f"{program.ranks} ranks: positions within {largest:.1e} m of one rank's")
 
