@@ -69,8 +69,8 @@ TEST_CASE("The accuracy asked for is met on packings that nothing was fitted to,
     if (error_at(name, packing, other.spacing) > accuracy) break;
     least = std::min(least, other.cost);
   }
-  // The choice does not know that this packing errs less than most, and a cube of three diameters has steps of a
-  // quarter in price from one whole number of cells to the next.
+  // The choice does not know that this packing errs less than most, and a cube of three diameters has steps
+  // of a quarter in price from one whole number of cells to the next.
   CAPTURE(choice.cost / least);
   CHECK(choice.cost < 5 * least);
 }
