@@ -8,6 +8,7 @@
 #include <map>
 
 #include "../liggghts/restart_commands.h"
+#include "../liggghts/restart_instant.h"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -162,7 +163,9 @@ void LbmCommand::restart(ArgumentReader& reader) {
       throw_user_error(
           {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
     } else {
+      put_grains_in_order(lmp_);
       write_checkpoint(lmp_, *simulation_, output_.references(), file);
+      simulation_->map_anew();
     }
   } else {
     reader.unknown(mode, "write, read");

@@ -168,7 +168,7 @@ std::string LbmRun::interruption_text(int signal) {
       fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", signal_name(signal),
                   simulation_.fluid().steps(), simulation_.time_si());
   simulation_.map();
-  if (const auto file = output_.save(lmp_, simulation_))
+  if (const auto file = output_.save(lmp_, port_, simulation_))
     return fmt::format(
         "{}; the state is in {} and {}.grains: go on with `read_restart` and `lbm restart read`", where,
         *file, *file);

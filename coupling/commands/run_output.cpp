@@ -199,6 +199,7 @@ bool RunOutput::due(long step) const {
 
 void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
   const long step = simulation.fluid().steps();
+  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, port, simulation);
   simulation.map();  // cells as the grains are now
   for (const auto& monitor : monitors_)
     if (step % monitor->every() == 0) monitor->write(lmp, port, simulation);
@@ -210,7 +211,6 @@ void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulat
     if (!fields->grains) continue;
     write_grains(*fields, port, simulation);
   }
-  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, simulation);
   started_ = true;
 }
 
@@ -228,10 +228,14 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
   fields.grains->write(snapshot, simulation.fluid().decomposition().communicator());
 }
 
-std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const {
+/// Before anything else is written at this instant, so that a run which takes the state up writes the same.
+std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                                           CoupledSimulation& simulation) const {
   if (!checkpoint_) return {};
   simulation.refresh_loads();  // the grains' memory is saved with them
+  port.set_up_again();
   write_checkpoint(lmp, simulation, references(), checkpoint_->file);
+  simulation.map_anew();
   return checkpoint_->file;
 }
 

@@ -34,8 +34,10 @@ class RunOutput {
   /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
-  /// Saves the state now where restart files were asked for; says in which file. Collective.
-  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const;
+  /// Saves the state now, within a run, where restart files were asked for; says in which file. The run goes on
+  /// as one that takes this state up (restart_instant.h). Collective.
+  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                                  CoupledSimulation& simulation) const;
 
   /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.
   MonitorReferences references() const;

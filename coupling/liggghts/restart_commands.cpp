@@ -2,9 +2,12 @@
 
 #include <mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "../commands/saved_set.h"
+#include "comm.h"
 #include "lammps.h"
 #include "read_restart.h"
 #include "register_styles.h"
@@ -23,10 +26,29 @@ bool is_one_file(int narg, char** arg) {
   return narg > 0 && std::string(arg[0]).find_first_of("*%") == std::string::npos;
 }
 
+/// LIGGGHTS shares a box among ranks by its shape, which a servo changes: what was written on as many ranks is
+/// read on the grid that it was written on, as far as the script's `processors` leaves that open. Gives what
+/// the script asked for.
+std::array<int, 3> ask_for_rank_grid(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  std::array<int, 3> asked{}, grid{};
+  std::copy_n(lmp->comm->user_procgrid, 3, asked.begin());
+  if (lmp->comm->me == 0) grid = rank_grid_of(file, lmp->comm->nprocs).value_or(grid);
+  MPI_Bcast(grid.data(), 3, MPI_INT, 0, lmp->world);
+  bool allowed = grid[0] > 0;
+  for (std::size_t a = 0; a < 3; ++a) allowed = allowed && (asked[a] == 0 || asked[a] == grid[a]);
+  if (allowed) std::copy_n(grid.begin(), 3, lmp->comm->user_procgrid);
+  return asked;
+}
+
 void read_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
-  if (is_one_file(narg, arg))
+  std::array<int, 3> asked{};
+  std::copy_n(lmp->comm->user_procgrid, 3, asked.begin());
+  if (is_one_file(narg, arg)) {
     on_first_rank("read_restart", lmp->world, [&] { require_whole_restart_file(arg[0]); });
+    asked = ask_for_rank_grid(lmp, arg[0]);
+  }
   LAMMPS_NS::ReadRestart(lmp).command(narg, arg);
+  std::copy_n(asked.begin(), 3, lmp->comm->user_procgrid);
   require_unique_grains(lmp, "read_restart");
 }
 

@@ -16,6 +16,7 @@
 #include "modify.h"
 #include "output.h"
 #include "pair_law.h"
+#include "restart_record.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
 #include "update.h"
@@ -39,7 +40,8 @@ constexpr double kStaticRayleighTimes = 20000 * 0.0994;
 /// Share of the target below which a sample with friction may be compressed faster: it remembers its way.
 constexpr double kFrictionalApproach = 0.01;
 constexpr int kSamplesPerWindow = 20;
-constexpr std::size_t kSignatureSize = 96;
+/// Of what pack() gives.
+constexpr int kStateVersion = 3;
 
 std::string who() {
   return "fix stress/servo";
@@ -347,10 +349,9 @@ void FixStressServo::report_progress() {
   std::fflush(screen);
 }
 
-/// Names the layout of the state, the path and its target: a restart file's state is taken up only by the fix
-/// that wrote it.
+/// Names the path and its target: a restart file's state is taken up only by the fix that wrote it.
 std::string FixStressServo::signature() const {
-  return fmt::format("2: {} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
+  return fmt::format("{} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
                      arguments_.settings.target, arguments_.settings.axis, arguments_.settings.direction,
                      arguments_.settings.deviator_low, arguments_.settings.deviator_high);
 }
@@ -394,26 +395,20 @@ void FixStressServo::unpack(const double* values) {
 
 void FixStressServo::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  std::string name = signature();
-  name.resize(kSignatureSize, '\0');
-  const std::vector<double> values = pack();
-  const int size = static_cast<int>(kSignatureSize + values.size() * sizeof(double));
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(name.data(), 1, kSignatureSize, file);
-  fwrite(values.data(), sizeof(double), values.size(), file);
+  suffuse::write_record(file, {kStateVersion, signature(), pack()});
 }
 
 void FixStressServo::restart(char* buffer) {
-  if (signature() != std::string(buffer, strnlen(buffer, kSignatureSize))) {
+  const suffuse::RestartRecord record = suffuse::read_record(
+      buffer, kStateVersion, pack().size(), fmt::format("fix stress/servo {}", id));
+  if (record.text != signature()) {
     if (comm->me == 0 && screen != nullptr)
       fmt::print(screen,
                  "fix stress/servo {}: the restart file holds another stress path; starting this one anew\n",
                  id);
     return;
   }
-  std::vector<double> values(pack().size());
-  std::memcpy(values.data(), buffer + kSignatureSize, values.size() * sizeof(double));
-  unpack(values.data());
+  unpack(record.values.data());
   if (state_.phase == servo::Phase::kDone) state_.phase = servo::Phase::kHolding;  // to an end further on
   restored_ = true;
 }

@@ -13,6 +13,7 @@ import random
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -139,6 +140,29 @@ def check_damaged(program, folder):
     expect((folder / "taken").read_text() == "mine" and not os.path.isfile("/dev/null"), "a file is gone")
 
 
+def check_foreign_records(program, folder):
+    """A fix's record of another version, of another length, or changed: one line, on all ranks, whoever has the grains."""
+    whole = (folder / "start").read_bytes()
+    mark = whole.index(b"suffuse\n")
+    grain = whole.index(struct.pack("<dd", 39, 1))  # the length of a grain's record, and its version
+    text = wet_box(restart="foreign") + "run 0\n"
+
+    def with_bytes(at, new):
+        changed = bytearray(whole)
+        changed[at:at + len(new)] = new
+        return bytes(changed)
+
+    for changed, words in ((with_bytes(mark, b"Suffuse\n"), ["without a version", "be of version 1"]),
+                           (with_bytes(mark + 8, struct.pack("<q", 7)), ["= version 7,", "be of version 1"]),
+                           (with_bytes(mark + 24, struct.pack("<q", 3)), ["3 values, not 1"]),
+                           (with_bytes(mark + 40, struct.pack("<d", 0.5)), ["damaged"]),
+                           (with_bytes(grain + 8, struct.pack("<d", 2)), ["of another layout for 1 grains", "be of version 1"])):
+        (folder / "foreign").write_bytes(changed)
+        ends_with_a_sentence(program, text, folder, "foreign", ["fix hydrodynamic/force: record", *words])
+    (folder / "foreign").write_bytes(whole)
+    program.must_run(text, folder, "own")
+
+
 def check_killed(program, folder, kills):
     """Killed at random instants while it saves every few steps: the state under the name is whole and of one step. Those that
     are taken up run on."""
@@ -174,6 +198,7 @@ def main():
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box(grains=6) + "write_restart start\n", folder)
         mounts = can_mount(folder)
         check_damaged(program, folder)
+        check_foreign_records(program, folder)
         if mounts:
             check_full_state(program, folder)
             check_full_series(program, folder)
