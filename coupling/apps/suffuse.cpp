@@ -71,7 +71,7 @@ bool answered_without_a_script(int argc, char** argv) {
   }
   if (given(argc, argv, "--styles")) {
     for (const std::string& name : suffuse::registered_styles()) fmt::print("{}\n", name);
-    fmt::print("command lbm\n");
+    fmt::print("command lbm\ncommand restart_set\n");
     return true;
   }
   return false;

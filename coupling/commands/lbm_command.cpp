@@ -9,6 +9,7 @@
 
 #include "../liggghts/restart_commands.h"
 #include "../liggghts/restart_instant.h"
+#include "../liggghts/saving_verlet.h"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -72,6 +73,7 @@ FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::
 }  // namespace
 
 void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
+  WallLimit::start_clock();
   add_restart_commands(lmp);
   add_command(lmp, "lbm", &run_line);
 }
@@ -85,7 +87,7 @@ void LbmCommand::line(int narg, char** arg) {
       "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
       "plan, "
       "run, "
-      "restart, clear";
+      "restart, stop, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
@@ -111,6 +113,9 @@ void LbmCommand::line(int narg, char** arg) {
     run(reader);
   } else if (word == "restart") {
     restart(reader);
+  } else if (word == "stop") {
+    if (!reader.accept("after")) reader.unknown(reader.word("after"), "after TIME");
+    settings_.wall_limit = WallLimit::read(reader);
   } else if (word == "clear") {
     simulation_.reset();
     port_.reset();
@@ -347,6 +352,10 @@ void LbmCommand::run(ArgumentReader& reader) {
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
   refuse_double_buoyancy();
+  require_no_sets_of_grains(lmp_, reader.who());
+  if (settings_.wall_limit.given() && !settings_.checkpoint)
+    throw_user_error({"lbm stop", "after", settings_.wall_limit.text(), "have a place for the state",
+                      "write `lbm restart write FILE every T` before `lbm run`"});
   if (simulation_ == nullptr) {
     build();
   } else {

@@ -165,7 +165,7 @@ bool LbmRun::look(long step, const RunRequest& request) {
 /// Saves the state where restart files were asked for, and says so.
 std::string LbmRun::interruption_text(int signal) {
   const std::string where =
-      fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", signal_name(signal),
+      fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", stop_name(signal),
                   simulation_.fluid().steps(), simulation_.time_si());
   simulation_.map();
   if (const auto file = output_.save(lmp_, port_, simulation_))
@@ -173,6 +173,12 @@ std::string LbmRun::interruption_text(int signal) {
         "{}; the state is in {} and {}.grains: go on with `read_restart` and `lbm restart read`", where,
         *file, *file);
   return where + "; nothing saved: `lbm restart write FILE every T` before the run would have";
+}
+
+/// 0, or why this rank wants to stop.
+int LbmRun::stop_here() const {
+  if (lmp_->comm->me == 0 && settings_.wall_limit.is_over()) return kWallLimitStops;
+  return SignalWatch::received();
 }
 
 std::string LbmRun::table() {
@@ -233,7 +239,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
     advance(step, is_last);
     is_last = look(step, request);
     progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
-    stop = port_.stop_requested(SignalWatch::received());
+    stop = port_.stop_requested(stop_here());
   }
   const bool interrupted = stop > LiggghtsPort::kFixStops;
   const std::string last_words = interrupted ? interruption_text(stop) : "";
@@ -249,7 +255,7 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
                     simulation_.units().time_to_si(made)));
   say(where_time_went);
   if (const auto note = drag_note()) say(*note);
-  if (interrupted) throw Interrupted(stop, last_words);
+  if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
 }
 
 }  // namespace suffuse::coupling

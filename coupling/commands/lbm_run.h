@@ -39,6 +39,7 @@ class LbmRun {
   void advance(long step, bool is_last);
   bool look(long step, const RunRequest& request);
   std::string interruption_text(int signal);
+  int stop_here() const;
   void set_values();
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;

@@ -7,6 +7,7 @@
 
 #include "monitor_request.h"
 #include "script_value.h"
+#include "wall_limit.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/field_output.h"
 
@@ -60,6 +61,7 @@ struct LbmSettings {
   std::vector<MonitorRequest> monitors;
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;
+  WallLimit wall_limit;
 };
 
 /// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words

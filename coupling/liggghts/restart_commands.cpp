@@ -12,6 +12,7 @@
 #include "read_restart.h"
 #include "register_styles.h"
 #include "restart_file.h"
+#include "saving_verlet.h"
 #include "styles/scene_checks.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
@@ -66,6 +67,7 @@ void write_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
 void add_restart_commands(LAMMPS_NS::LAMMPS* lmp) {
   add_command(lmp, "read_restart", &read_restart);
   add_command(lmp, "write_restart", &write_restart);
+  add_command(lmp, "restart_set", &restart_set);
 }
 
 }  // namespace suffuse::coupling

@@ -116,6 +116,11 @@ void FixStressServo::init() {
   if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
   if (!arguments_.approach_given)
     arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
+  if (restored_ && restored_grains_[0] == grains_at_start_) {  // sums of the same grains in another order
+    density_ = restored_grains_[1];
+    solid_volume_ = restored_grains_[2];
+    diameter_ = restored_grains_[3];
+  }
   set_static_window();
 }
 
@@ -137,7 +142,7 @@ void FixStressServo::reset_dt() {
 
 void FixStressServo::setup(int) {
   sampler_->setup(0);
-  if (pressure_->invoked_vector != update->ntimestep) measure_stress();
+  measure_stress();
   measure_network();
   stop_step_ = -1;
   if (!restored_ && state_.reference_lengths.isZero()) {
@@ -367,7 +372,7 @@ std::vector<double> FixStressServo::pack() const {
         state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase), w.start, w.stress_low,
         w.stress_high, w.coordination_low, w.coordination_high, network_.coordination,
         network_.bulk_stiffness, network_.unbalanced, network_.overlap, network_.grains,
-        state_.largest_stress, is_static_ ? 1.0 : 0.0})
+        state_.largest_stress, is_static_ ? 1.0 : 0.0, grains_at_start_, density_, solid_volume_, diameter_})
     values.push_back(value);
   return values;
 }
@@ -390,7 +395,8 @@ void FixStressServo::unpack(const double* values) {
                         &network_.coordination, &network_.bulk_stiffness, &network_.unbalanced,
                         &network_.overlap, &network_.grains, &state_.largest_stress})
     *value = *values++;
-  is_static_ = *values != 0;
+  is_static_ = *values++ != 0;
+  std::copy_n(values, restored_grains_.size(), restored_grains_.begin());
 }
 
 void FixStressServo::write_restart(FILE* file) {

@@ -10,7 +10,7 @@ import shutil
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, expect, program_from_command_line, scratch  # noqa: E402
+from scenes import Program, expect, loose_sample, program_from_command_line, read_sample, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 DUMP = """
@@ -58,12 +58,53 @@ def coupled(program, folder):
     expect(max(float(z) for z in touching) > 0.1, f"the grains do not collide: Z up to {max(touching)}")
 
 
+def series(name, values):
+    """LIGGGHTS's own series of a few values of the script."""
+    lines = "".join(f"variable s{n} equal {value}\n" for n, value in enumerate(values))
+    words = ",".join(f"${{{{s{n}}}}}".replace("{{", "{").replace("}}", "}") for n in range(len(values)))
+    return lines + f'fix series all print 500 "$(step),{words}" file {name}.csv screen no\n'
+
+
+def dry(program, folder, what, start, begin_again, values, every, steps):
+    """Sets in the steps that are multiples of `every`; taken up from both that are left."""
+    def rest(name):
+        return series(name, values) + dump_text(name) + f"restart_set {name}.set every {every}\n"
+    program.must_run(start + rest(f"{what}_whole") + f"run {steps} upto\nrestart_set off\n" + FINAL, folder, f"{what}_whole")
+    whole = (folder / f"{what}_whole.csv").read_text().splitlines()
+    for n in (1, 2):
+        name = f"{what}_again{n}"
+        program.must_run(begin_again(f"{what}_whole.set.{n}/grains") + rest(name) + f"run {steps} upto\nrestart_set off\n" + FINAL, folder, name)
+        compare_frames(folder / f"{what}_whole.dump", folder / f"{name}.dump", f"{what}, from set {n}")
+        rows = (folder / f"{name}.csv").read_text().splitlines()[1:]
+        known = dict(line.split(",", 1) for line in whole[1:])
+        amiss = [(line, known.get(line.split(",", 1)[0])) for line in rows if known.get(line.split(",", 1)[0]) != line.split(",", 1)[1]]
+        expect(len(rows) > 3 and not amiss, f"{what}, from set {n}: {len(amiss)} of {len(rows)} rows differ, first\n{amiss[:1]}")
+
+
+def falling(program, folder):
+    """Grains that fall on a floor and on each other, without water."""
+    def scene(restart):
+        return wet_box(restart=restart).replace("atom_modify sort 0 0\n", "").replace("fix hydrodynamic_force all hydrodynamic/force\n", "")
+    dry(program, folder, "falling", scene("start"), scene, ["ke", "bound(all,zmax)"], 8000, 30000)
+
+
+def servo(program, folder):
+    """A sample that a servo compresses, and shears: the box changes its shape, and LIGGGHTS would share it otherwise among ranks."""
+    fix = "fix s all stress/servo {path}\n"
+    values = [f"f_s[{n}]" for n in (1, 2, 3, 4, 6, 7, 9, 10, 11)]
+    compress, shear = fix.format(path="isotropic 100e3"), fix.format(path="triaxial 100e3 axis z rate 1")
+    dry(program, folder, "compressed", loose_sample(friction=0.3) + compress, lambda file: read_sample(file) + compress, values, 7037, 24000)
+    program.must_run(loose_sample(friction=0.3) + fix.format(path="isotropic 100e3 until target") + "run 400000\nreset_timestep 0\nwrite_restart sample\n", folder, "sample")
+    dry(program, folder, "sheared", read_sample("sample") + shear, lambda file: read_sample(file) + shear, values, 3000, 11000)
+
+
 def main():
     program = program_from_command_line(__doc__)
     with scratch() as scratch_folder:
         folder = pathlib.Path(scratch_folder)
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
-        coupled(program, folder)
+        for case in (falling, servo, coupled):
+            case(program, folder)
     print(f"{program.ranks} ranks: continued runs are those that went on, to the last digit")
 
 
