@@ -1,21 +1,26 @@
 #include "restart_commands.h"
 
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string>
 
 #include "../commands/saved_set.h"
 #include "comm.h"
-#include "lammps.h"
+#include "domain.h"
 #include "read_restart.h"
+#include "grains_file.h"
+#include "lammps.h"
 #include "register_styles.h"
 #include "restart_file.h"
+#include "restart_instant.h"
 #include "saving_verlet.h"
 #include "styles/scene_checks.h"
 #include "suffuse/common/collective_text.h"
-#include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "write_restart.h"
 
 namespace suffuse::coupling {
@@ -53,13 +58,23 @@ void read_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   require_unique_grains(lmp, "read_restart");
 }
 
+/// What is there stays until what takes its place is whole and on the disk.
 void write_restart(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
-  LAMMPS_NS::WriteRestart(lmp).command(narg, arg);
-  if (!is_one_file(narg, arg)) return;
-  on_first_rank("write_restart", lmp->world, [&] {
-    if (!is_whole_restart_file(arg[0]))
-      throw_user_error({"write_restart", "file", arg[0], "take what is written", "is the disk full?"});
+  if (lmp->domain->box_exist == 0 || narg != 1 || !is_one_file(narg, arg)) {
+    LAMMPS_NS::WriteRestart(lmp).command(narg, arg);
+    return;
+  }
+  constexpr const char* who = "write_restart";
+  const std::string file = arg[0], part = file + ".part";
+  on_first_rank(who, lmp->world, [&] {
+    require_replaceable(file, who);
+    if (const auto folder = std::filesystem::path(file).parent_path(); !folder.empty())
+      std::filesystem::create_directories(folder);
+    if (lmp->screen != nullptr) fmt::print(lmp->screen, "System init for write_restart ...\n");
   });
+  put_grains_in_order(lmp);
+  write_grains_file(lmp, part, who);
+  on_first_rank(who, lmp->world, [&] { std::filesystem::rename(part, file); });
 }
 
 }  // namespace

@@ -13,8 +13,9 @@ namespace suffuse::coupling {
 /// the damping of half a step. Costs a neighbour list and a step. Collective.
 void set_up_again(LAMMPS_NS::LAMMPS* lmp);
 
-/// Between two runs, right before a restart file is written: grains go to their ranks, into the box and into
-/// the order in which the next run of either side begins. Collective.
+/// Between two runs, right before a restart file is written, what LIGGGHTS's `write_restart` does: grains go to
+/// their ranks and into the box, so that the next run of either side begins with them in the same order.
+/// Collective.
 void put_grains_in_order(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace suffuse::coupling
