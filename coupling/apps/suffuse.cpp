@@ -182,6 +182,9 @@ int run_script(int argc, char** argv, int rank) {
     suffuse::coupling::LbmCommand::remove_from(lmp);
     delete lmp;
     return 0;
+  } catch (const suffuse::LostRun& end) {
+    tell_the_end(fmt::format("suffuse: error: {}", end.what()), lmp, rank);
+    return suffuse::kLostRunExitCode;
   } catch (const suffuse::UserError& problem) {
     // Thrown on all ranks alike; the half-built LIGGGHTS is left to the operating system.
     tell_the_end(fmt::format("suffuse: error: {}", problem.what()), lmp, rank);

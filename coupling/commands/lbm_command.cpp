@@ -84,7 +84,7 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
+      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, monitor, output, "
       "plan, "
       "run, "
       "restart, stop, clear";
@@ -103,6 +103,8 @@ void LbmCommand::line(int narg, char** arg) {
     read_force(reader, lmp_, settings_);
   } else if (word == "couple") {
     read_couple(reader, settings_);
+  } else if (word == "guard") {
+    read_guard(reader, settings_);
   } else if (word == "monitor") {
     read_monitor(reader, settings_);
   } else if (word == "output") {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "monitor_request.h"
+#include "run_guards.h"
 #include "script_value.h"
 #include "wall_limit.h"
 #include "suffuse/coupling/settings.h"
@@ -62,6 +63,7 @@ struct LbmSettings {
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;
   WallLimit wall_limit;
+  GuardLimits guards;
 };
 
 /// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words
@@ -77,6 +79,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings);
 void read_walls(ArgumentReader& reader, LbmSettings& settings);
 void read_effect(ArgumentReader& reader, LbmSettings& settings);
 void read_couple(ArgumentReader& reader, LbmSettings& settings);
+void read_guard(ArgumentReader& reader, LbmSettings& settings);
 void read_monitor(ArgumentReader& reader, LbmSettings& settings);
 void read_output(ArgumentReader& reader, LbmSettings& settings);
 

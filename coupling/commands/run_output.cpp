@@ -48,6 +48,8 @@ bool exists_for_all(const std::string& file, MPI_Comm communicator) {
   return exists != 0;
 }
 
+/// Before the name of a quantity among the monitors' references.
+constexpr const char* kWarnedMark = "warned of: ";
 /// LIGGGHTS's step in a saved state of the water.
 constexpr const char* kGrainsStep = "liggghts_step";
 
@@ -159,10 +161,10 @@ bool RunOutput::due(long step) const {
 
 void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
   const long step = simulation.fluid().steps();
-  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, port, simulation);
+  if (saves(step)) (void)save(lmp, port, simulation);
   simulation.map();  // cells as the grains are now
   for (const auto& monitor : monitors_)
-    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation);
+    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation, sample_);
   for (const auto& fields : fields_) {
     const bool first = fields->last_step < 0 && !fields->continues;
     if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
@@ -190,17 +192,45 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
 
 /// Before anything else is written at this instant, so that a run which takes the state up writes the same.
 std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                                           CoupledSimulation& simulation) const {
+                                           CoupledSimulation& simulation) {
   if (!checkpoint_) return {};
   simulation.refresh_loads();  // the grains' memory is saved with them
   port.set_up_again();
   write_checkpoint(lmp, simulation, references(), checkpoint_->file);
   simulation.map_anew();
+  sample_.reset();  // of cells as they were
+  last_state_ = fmt::format("{} (fluid step {})", checkpoint_->file, simulation.fluid().steps());
   return checkpoint_->file;
+}
+
+const PlaneSums* RunOutput::sample_now(long step, CoupledSimulation& simulation) {
+  sample_.reset();
+  const auto due = std::find_if(monitors_.begin(), monitors_.end(),
+                                [&](const auto& monitor) { return step % monitor->every() == 0; });
+  if (due == monitors_.end() || saves(step)) return nullptr;
+  simulation.map();
+  sample_ = plane_sums(simulation, (*due)->request().axis);
+  return &*sample_;
+}
+
+/// What a guard has warned of travels with the monitors' references, under a name that no monitor has.
+void RunOutput::set_references(MonitorReferences references) {
+  constexpr std::string_view mark = kWarnedMark;
+  std::erase_if(references, [&](const auto& entry) {
+    if (!entry.first.starts_with(mark)) return false;
+    warned_.insert(entry.first.substr(mark.size()));
+    return true;
+  });
+  references_ = std::move(references);
+}
+
+bool RunOutput::saves(long step) const {
+  return checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0;
 }
 
 MonitorReferences RunOutput::references() const {
   MonitorReferences all;
+  for (const std::string& name : warned_) all[kWarnedMark + name] = {1};
   for (const auto& monitor : monitors_) monitor->add_references(all);
   return all;
 }

@@ -67,6 +67,8 @@ class CoupledSimulation {
   const CoupledSettings& settings() const { return settings_; }
   const SolidMapping& mapping() const { return mapping_; }
   const Vec3& origin() const { return origin_; }
+  /// This rank's spheres as they were last read, copies included, in lattice units.
+  const std::vector<LatticeSphere>& spheres() const { return spheres_; }
   ParticlePort& grains() { return grains_; }
 
   /// DEM steps a fluid step.
