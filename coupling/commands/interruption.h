@@ -6,8 +6,8 @@
 
 namespace suffuse::coupling {
 
-/// A run has ended before its end, by a signal, by the clock or by a guard, and is saved and closed. Thrown on
-/// all ranks alike; ends the script.
+/// A run has ended before its end, by a signal, by the clock or by a guard, and is saved and closed. Thrown
+/// on all ranks alike; ends the script.
 class Interrupted final : public std::exception {
  public:
   Interrupted(int exit_code, std::string text) : exit_code_(exit_code), text_(std::move(text)) {}

@@ -84,7 +84,8 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, monitor, output, "
+      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, monitor, "
+      "output, "
       "plan, "
       "run, "
       "restart, stop, clear";

@@ -22,8 +22,9 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Fluid steps between looks at Mach number and density: sound crosses this many cells meanwhile.
-constexpr long kCheckEvery = 100;
+/// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the time,
+/// and more often once a flow is near its limit.
+constexpr long kCheckEvery = 250, kCheckNearLimitEvery = 50;
 
 /// Grains faster than this many viscosities a cell have a drag that is some 2 % too large in beds that carry
 /// their water (docs/decisions/solid-operator.md).
@@ -80,12 +81,14 @@ std::string LbmRun::details() const {
 
 void LbmRun::check(long step) {
   // Before anything is written, too: nothing of a flow that is lost.
-  if (step % kCheckEvery != 0 && step != last_ && step != first_ && !output_.due(step)) return;
+  const long every = near_limit_ ? kCheckNearLimitEvery : kCheckEvery;
+  if (step % every != 0 && step != last_ && step != first_ && !output_.due(step)) return;
   const PlaneSums* sums = output_.sample_now(step, simulation_);
   extremes_ = sums != nullptr ? sums->extremes : simulation_.fluid().extremes();
   refuse_grains_behind_walls(simulation_);
   const GuardReading now = reading(extremes_);
   fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
+  near_limit_ = extremes_.largest_speed * std::sqrt(3.) > kWarnShare * settings_.largest_mach;
   const std::vector<std::string> warnings = guards_.look(now);
   for (const std::string& line : warnings) say(line);
   if (warnings.empty()) return;

@@ -67,7 +67,8 @@ class LbmRun {
   lbm::FluidExtremes extremes_;
   RunGuards guards_;
   GrainCensus census_;
-  double solid_volume_ = 0;  ///< of the grains, m^3
+  bool near_limit_ = false;   ///< the Mach number, at the last look
+  double solid_volume_ = 0;   ///< of the grains, m^3
   double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
   std::optional<Vec3> last_flow_, last_motion_;
 };

@@ -8,9 +8,9 @@
 #include "monitor_request.h"
 #include "run_guards.h"
 #include "script_value.h"
-#include "wall_limit.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/field_output.h"
+#include "wall_limit.h"
 
 namespace suffuse::coupling {
 

@@ -52,8 +52,7 @@ std::vector<RunGuards::Finding> RunGuards::findings(const GuardReading& reading)
   std::vector<Finding> all;
   const double mach = reading.fluid.largest_speed * std::sqrt(3.);
   all.push_back({kMach, mach, reading.mach_limit, fmt::format("{:.3g}", mach), "", ""});  // health.h ends it
-  const double departure =
-      std::max(reading.fluid.largest_density - 1, 1 - reading.fluid.smallest_density);
+  const double departure = std::max(reading.fluid.largest_density - 1, 1 - reading.fluid.smallest_density);
   all.push_back({kDensity, departure, limits_.density, fmt::format("{:.3g} % from rest", 100 * departure),
                  fmt::format("depart from rest by less than {:g} %", 100 * limits_.density),
                  fmt::format("a pressure that high needs a smaller timestep than {:.3g} s (a lower "
@@ -71,7 +70,8 @@ std::vector<RunGuards::Finding> RunGuards::findings(const GuardReading& reading)
   if (reading.stored_mass) {
     if (!first_mass_) first_mass_ = reading.stored_mass;
     const double change = std::abs(*reading.stored_mass - *first_mass_) / reading.mass_at_rest;
-    all.push_back({"mass of the water", change, limits_.mass, fmt::format("changed by a share of {:.3g}", change),
+    all.push_back({"mass of the water", change, limits_.mass,
+                   fmt::format("changed by a share of {:.3g}", change),
                    fmt::format("stay within a share of {:g}: no face lets any in", limits_.mass),
                    "run with `precision double`; if it is, please report the scene"});
   }
@@ -119,13 +119,14 @@ std::vector<std::string> RunGuards::look(const GuardReading& reading) {
       throw_lost_run({kWho, fmt::format("{} at {:.5g} s{}", finding.name, time, place_of(finding.name)),
                       finding.number, finding.rule, finding.remedy});
     if (finding.value <= kWarnShare * finding.limit || !warned_.insert(finding.name).second) continue;
-    lines.push_back(fmt::format("{}: warning: {} at {:.5g} s = {}{}; the run ends above {:g}", kWho, finding.name,
-                                time, finding.number, place_of(finding.name), finding.limit));
+    lines.push_back(fmt::format("{}: warning: {} at {:.5g} s = {}{}; the run ends above {:g}", kWho,
+                                finding.name, time, finding.number, place_of(finding.name), finding.limit));
   }
   if (reading.lost_grains == 0) return lines;
   const std::string lost = count_text(reading.lost_grains, "grain");
   if (limits_.stop_if_lost)
-    throw_lost_run({kWho, fmt::format("lost grains at {:.5g} s", time), lost, "be none: `lbm guard lost stop`",
+    throw_lost_run({kWho, fmt::format("lost grains at {:.5g} s", time), lost,
+                    "be none: `lbm guard lost stop`",
                     "close the box with walls, or let a fix of the script take grains away on purpose"});
   if (warned_.insert("lost grains").second)
     lines.push_back(fmt::format("{}: warning: {} had left the box at {:.5g} s", kWho, lost, time));

@@ -9,13 +9,14 @@
 
 namespace suffuse::coupling {
 
-/// `lbm guard`: how far a run may go before it is ended. Warnings come at the share `kWarnShare` of each limit.
+/// `lbm guard`: how far a run may go before it is ended. Warnings come at the share `kWarnShare` of each
+/// limit.
 struct GuardLimits {
-  double density = 0.5;        ///< departure of a cell's density from rest, as a share
-  double motion = 0.5;         ///< cells that a grain passes in a fluid step
-  double overlap = 0.1;        ///< share of the grains' volume that lies in other grains
-  double mass = 1e-3;          ///< change of the mass in a closed box, as a share
-  bool stop_if_lost = false;   ///< end the run where a grain leaves the box, rather than warn
+  double density = 0.5;       ///< departure of a cell's density from rest, as a share
+  double motion = 0.5;        ///< cells that a grain passes in a fluid step
+  double overlap = 0.1;       ///< share of the grains' volume that lies in other grains
+  double mass = 1e-3;         ///< change of the mass in a closed box, as a share
+  bool stop_if_lost = false;  ///< end the run where a grain leaves the box, rather than warn
 };
 inline constexpr double kWarnShare = 0.5;
 
@@ -23,8 +24,8 @@ inline constexpr double kWarnShare = 0.5;
 struct GuardReading {
   lbm::FluidExtremes fluid;
   double mach_limit = 0.3;
-  double fastest_grain = 0;    ///< m/s; not finite where a grain's velocity is not
-  double overlap = 0;          ///< share of the grains' volume
+  double fastest_grain = 0;  ///< m/s; not finite where a grain's velocity is not
+  double overlap = 0;        ///< share of the grains' volume
   std::int64_t lost_grains = 0;
   /// Mass beyond rest of all populations and the mass at rest, lattice units; none where faces let mass in or
   /// out.
@@ -36,7 +37,8 @@ struct GuardReading {
 /// its limit. All ranks see the same reading and do the same.
 class RunGuards {
  public:
-  RunGuards(const GuardLimits& limits, const CoupledSimulation& simulation) : limits_(limits), simulation_(simulation) {}
+  RunGuards(const GuardLimits& limits, const CoupledSimulation& simulation)
+      : limits_(limits), simulation_(simulation) {}
 
   /// Quantities that have been warned of: one that a saved state brings is not warned of again.
   const std::set<std::string>& warned() const { return warned_; }
@@ -47,7 +49,7 @@ class RunGuards {
 
  private:
   struct Finding {
-    std::string name;    ///< of the quantity
+    std::string name;  ///< of the quantity
     double value, limit;
     std::string number;  ///< the value as text, with what it is
     std::string rule, remedy;

@@ -36,10 +36,9 @@ class RunOutput {
   /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
-  /// Saves the state now, within a run, where restart files were asked for; says in which file. The run goes on
-  /// as one that takes this state up (restart_instant.h). Collective.
-  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                                  CoupledSimulation& simulation);
+  /// Saves the state now, within a run, where restart files were asked for; says in which file. The run goes
+  /// on as one that takes this state up (restart_instant.h). Collective.
+  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
   /// Which states this process has saved or taken up last: its file and step; empty: none.
   std::string last_state() const { return last_state_; }
@@ -48,8 +47,8 @@ class RunOutput {
   const std::set<std::string>& warned() const { return warned_; }
   void set_warned(std::set<std::string> warned) { warned_ = std::move(warned); }
 
-  /// The sums over planes that the monitors which are due want, as `write` will use them; null where nothing is
-  /// due, or a state is saved before. Collective.
+  /// The sums over planes that the monitors which are due want, as `write` will use them; null where nothing
+  /// is due, or a state is saved before. Collective.
   const PlaneSums* sample_now(long step, CoupledSimulation& simulation);
 
   /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.

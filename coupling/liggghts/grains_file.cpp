@@ -40,8 +40,7 @@ void write_wrapped(LAMMPS_NS::LAMMPS* lmp, char* file) {
 }  // namespace
 
 /// LIGGGHTS does not check what it writes: its file goes to memory, and from there to the disk.
-void write_grains_file(LAMMPS_NS::LAMMPS* lmp, const std::string& path,
-                       const std::string& who) {
+void write_grains_file(LAMMPS_NS::LAMMPS* lmp, const std::string& path, const std::string& who) {
   int memory = -1;
   on_first_rank(who, lmp->world, [&] {
     memory = memfd_create("grains", MFD_CLOEXEC);

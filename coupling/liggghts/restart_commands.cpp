@@ -11,9 +11,9 @@
 #include "../commands/saved_set.h"
 #include "comm.h"
 #include "domain.h"
-#include "read_restart.h"
 #include "grains_file.h"
 #include "lammps.h"
+#include "read_restart.h"
 #include "register_styles.h"
 #include "restart_file.h"
 #include "restart_instant.h"
@@ -32,9 +32,9 @@ bool is_one_file(int narg, char** arg) {
   return narg > 0 && std::string(arg[0]).find_first_of("*%") == std::string::npos;
 }
 
-/// LIGGGHTS shares a box among ranks by its shape, which a servo changes: what was written on as many ranks is
-/// read on the grid that it was written on, as far as the script's `processors` leaves that open. Gives what
-/// the script asked for.
+/// LIGGGHTS shares a box among ranks by its shape, which a servo changes: what was written on as many ranks
+/// is read on the grid that it was written on, as far as the script's `processors` leaves that open. Gives
+/// what the script asked for.
 std::array<int, 3> ask_for_rank_grid(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
   std::array<int, 3> asked{}, grid{};
   std::copy_n(lmp->comm->user_procgrid, 3, asked.begin());

@@ -15,7 +15,16 @@ namespace suffuse::coupling {
 namespace {
 
 /// Flags of the header in the order of LIGGGHTS's write_restart.cpp; those that are not named hold an int.
-enum Flag { version = 0, units = 4, ntimestep = 5, nprocs = 7, procgrid = 8, atom_style = 22, natoms = 23, nbonds = 25 };
+enum Flag {
+  version = 0,
+  units = 4,
+  ntimestep = 5,
+  nprocs = 7,
+  procgrid = 8,
+  atom_style = 22,
+  natoms = 23,
+  nbonds = 25
+};
 constexpr int kLastFlag = 51;
 bool is_text(int flag) {
   return flag == version || flag == units || flag == atom_style;

@@ -15,9 +15,9 @@ struct SetRequest {
   WallLimit limit;
 };
 
-/// LIGGGHTS's Verlet integration that saves restart sets (saved_set.h) in the steps of a request, whoever runs
-/// it by `run`. It goes on from each as a run that takes it up (restart_instant.h). Signals and the wall-time
-/// limit are looked at now and then: the run ends with a set and Interrupted, on all ranks.
+/// LIGGGHTS's Verlet integration that saves restart sets (saved_set.h) in the steps of a request, whoever
+/// runs it by `run`. It goes on from each as a run that takes it up (restart_instant.h). Signals and the
+/// wall-time limit are looked at now and then: the run ends with a set and Interrupted, on all ranks.
 class SavingVerlet final : public LAMMPS_NS::Verlet {
  public:
   SavingVerlet(LAMMPS_NS::LAMMPS* lmp, SetRequest request);

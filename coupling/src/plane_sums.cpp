@@ -31,7 +31,8 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   const auto along = static_cast<std::size_t>(axis);
   std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]) + 1, Sums{});
   Totals totals{};
-  double extremes[4] = {0, -1e300, -1e300, 0};  // squared speed, density, -density, anything that is no number
+  double extremes[4] = {0, -1e300, -1e300,
+                        0};  // squared speed, density, -density, anything that is no number
   fluid.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
     const double open = 1 - solid_fraction;
     const Vec3 solid = simulation.mapping().solid_flux(cell);

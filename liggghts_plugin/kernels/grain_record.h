@@ -12,13 +12,13 @@ struct GrainRecord {
   double surface_force[3], surface_torque[3];  ///< N, N m
   double known;                                ///< 1 once there was such a step
   /// Over the fluid steps before (their running mean), m/s^2 and rad/s^2; and the virtual inertia that is to
-  /// move with it on both sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever integrates
-  /// applies these.
+  /// move with it on both sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever
+  /// integrates applies these.
   double acceleration[3], angular_acceleration[3];
   double virtual_mass, virtual_moment;
   double lead[3], spin_lead[3];  ///< of the fluid that it holds: kg m/s, kg m^2/s
-  double surveyed;               ///< 1 once the pores around the grain were surveyed for automatic coefficients
-  double surveyed_at[3];         ///< where it was then, m
+  double surveyed;        ///< 1 once the pores around the grain were surveyed for automatic coefficients
+  double surveyed_at[3];  ///< where it was then, m
 };
 
 /// Raised by whoever changes the record: restart files with another one are refused.

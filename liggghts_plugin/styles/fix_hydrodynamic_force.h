@@ -100,7 +100,7 @@ class FixHydrodynamicForce : public Fix {
   bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
   int foreign_records_ = 0;  // of a restart file, that this version cannot read
-  double fluid_time_ = 0;  // s, at the step fluid_step_
+  double fluid_time_ = 0;    // s, at the step fluid_step_
   bigint fluid_step_ = 0;
   Fluid fluid_ = Fluid::rests;
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts

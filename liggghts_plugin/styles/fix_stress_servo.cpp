@@ -367,12 +367,28 @@ std::vector<double> FixStressServo::pack() const {
        {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
-  for (const double value :
-       {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
-        state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase), w.start, w.stress_low,
-        w.stress_high, w.coordination_low, w.coordination_high, network_.coordination,
-        network_.bulk_stiffness, network_.unbalanced, network_.overlap, network_.grains,
-        state_.largest_stress, is_static_ ? 1.0 : 0.0, grains_at_start_, density_, solid_volume_, diameter_})
+  for (const double value : {state_.axial_ramp,
+                             state_.axial_direction,
+                             static_cast<double>(state_.reversals),
+                             state_.peak_deviator,
+                             state_.strain_at_peak,
+                             static_cast<double>(state_.phase),
+                             w.start,
+                             w.stress_low,
+                             w.stress_high,
+                             w.coordination_low,
+                             w.coordination_high,
+                             network_.coordination,
+                             network_.bulk_stiffness,
+                             network_.unbalanced,
+                             network_.overlap,
+                             network_.grains,
+                             state_.largest_stress,
+                             is_static_ ? 1.0 : 0.0,
+                             grains_at_start_,
+                             density_,
+                             solid_volume_,
+                             diameter_})
     values.push_back(value);
   return values;
 }
@@ -405,8 +421,8 @@ void FixStressServo::write_restart(FILE* file) {
 }
 
 void FixStressServo::restart(char* buffer) {
-  const suffuse::RestartRecord record = suffuse::read_record(
-      buffer, kStateVersion, pack().size(), fmt::format("fix stress/servo {}", id));
+  const suffuse::RestartRecord record =
+      suffuse::read_record(buffer, kStateVersion, pack().size(), fmt::format("fix stress/servo {}", id));
   if (record.text != signature()) {
     if (comm->me == 0 && screen != nullptr)
       fmt::print(screen,

@@ -37,10 +37,10 @@ std::string body_of(const RestartRecord& record) {
 }
 
 [[noreturn]] void refuse(const std::string& who, const std::string& found, int version) {
-  throw_user_error({who, "record in the restart file", found,
-                    fmt::format("be of version {} and whole", version),
-                    "read the restart file with the version of suffuse that wrote it, or leave the fix out of "
-                    "the reading: give it another ID, and it starts anew"});
+  throw_user_error(
+      {who, "record in the restart file", found, fmt::format("be of version {} and whole", version),
+       "read the restart file with the version of suffuse that wrote it, or leave the fix out of "
+       "the reading: give it another ID, and it starts anew"});
 }
 
 }  // namespace
@@ -74,8 +74,7 @@ RestartRecord read_record(const char* buffer, int version, std::size_t values, c
   record.text.assign(body, static_cast<std::size_t>(head.characters));
   record.values.resize(values);
   std::memcpy(record.values.data(), body + head.characters, values * sizeof(double));
-  if (sum_of(body, record.text.size() + values * sizeof(double)) != head.sum)
-    refuse(who, "damaged", version);
+  if (sum_of(body, record.text.size() + values * sizeof(double)) != head.sum) refuse(who, "damaged", version);
   return record;
 }
 

@@ -29,8 +29,8 @@ struct InputProblem {
 /// Formats an InputProblem as one line and throws it as UserError.
 [[noreturn]] void throw_user_error(const InputProblem& problem);
 
-/// A run that has left what its method can do: not what was written, but what came of it. Thrown on every rank
-/// alike; programs end with an exit code of its own (docs/reference/exit_codes.md).
+/// A run that has left what its method can do: not what was written, but what came of it. Thrown on every
+/// rank alike; programs end with an exit code of its own (docs/reference/exit_codes.md).
 class LostRun : public UserError {
  public:
   using UserError::UserError;
