@@ -230,6 +230,43 @@ def check_killed(program, folder, kills, kind):
         shutil.rmtree(folder / name, ignore_errors=True)
 
 
+def check_killed_series(program, folder, kills):
+    """Killed while monitors and outputs are written, most of the time: the next run takes them up, and in the end rows and states are
+    those of a run without an end, none missing and none twice; every state can be read."""
+    grid = f"{program.ranks} 1 1"
+    interval, instants = 3.90625e-4, random.Random(2)  # five fluid steps
+    for n in range(kills + 1):
+        state = (folder / "series").exists()
+        text = wet_box(processors=grid, restart="series.grains" if state else "start") + WATER + RUN + \
+            f"lbm monitor m every {interval} file series.csv mass\nlbm output o every {interval} file series.h5 solid_fraction grains\n" \
+            f"lbm restart write series every {4 * interval}\n" + ("lbm restart read series\n" if state else "")
+        if n == kills:
+            program.must_run(text + f"lbm run {10 * interval}\n", folder, "series")
+            break
+        (folder / "in.series").write_text(text + "lbm run 1000\n")
+        run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.series", "-log", "none", "-echo", "none"],
+                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        before = os.stat(folder / "series").st_mtime_ns if state else 0
+        end = time.monotonic() + 60
+        while time.monotonic() < end and (not (folder / "series").exists() or os.stat(folder / "series").st_mtime_ns == before):
+            time.sleep(0.01)
+        time.sleep(0.2 * instants.random())
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        expect(children, "the run with outputs ended by itself")
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+        run.wait(timeout=60)
+    times = columns(folder / "series.csv")["time_s"]
+    expect(all(abs(t - k * interval) < 1e-6 * interval for k, t in enumerate(times)), f"rows missing or twice: {times}")
+    look = "import h5py, sys\nf = h5py.File(sys.argv[1])\nprint(*[int(s[5:]) for s in sorted(f)])\nf.visititems(lambda n, a: (a[...], None)[1] if isinstance(a, h5py.Dataset) else None)"
+    for name in ("series.h5", "series_grains.h5"):
+        done = subprocess.run(["/usr/bin/python3", "-c", look, name], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        expect(done.returncode == 0, f"{name}: {done.stdout[-300:]}")
+        steps = [int(word) for word in done.stdout.split()]
+        expect(steps == [5 * k for k in range(len(times))], f"{name}: states {steps}")
+        expect(not (folder / f"{name}.undo").exists(), f"{name}.undo is left")
+
+
 def main():
     arguments = sys.argv[1:]
     value = {name: arguments[arguments.index(name) + 1] for name in ("--suffuse", "--mpirun", "--ranks", "--kills") if name in arguments}
@@ -246,6 +283,7 @@ def main():
             check_full_state(program, folder)
             check_full_dry(program, folder)
             check_full_series(program, folder)
+        check_killed_series(program, folder, kills)
         for kind in killed_scenes(program):
             check_killed(program, folder, kills, kind)
     print(f"{program.ranks} ranks: whole after {kills} kills each of runs with water, dry, and with a servo" + ("" if mounts else "; no full disk: mounting needs root"))
