@@ -23,13 +23,21 @@ std::string shown(const std::string& text) {
   return text.size() > most ? line + "..." : line;
 }
 
-}  // namespace
-
-void throw_user_error(const InputProblem& problem) {
+std::string line_of(const InputProblem& problem) {
   std::string line =
       fmt::format("{}: {} = {}, must {}", problem.who, problem.what, shown(problem.value), problem.rule);
   if (!problem.remedy.empty()) line += "; " + problem.remedy;
-  throw UserError(line);
+  return line;
+}
+
+}  // namespace
+
+void throw_user_error(const InputProblem& problem) {
+  throw UserError(line_of(problem));
+}
+
+void throw_lost_run(const InputProblem& problem) {
+  throw LostRun(line_of(problem));
 }
 
 std::string refusal_of_the_machine(const std::exception& failure) {

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hdf5_undo.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse {
@@ -133,6 +135,7 @@ struct Hdf5File::Handle {
   hid_t file = -1;
   MPI_Comm communicator = MPI_COMM_NULL;
   bool reads = false;
+  bool noted = false;
 };
 
 /// A failure on one rank is the same UserError on all: what follows is collective.
@@ -163,6 +166,9 @@ void Hdf5File::close() {
       throw std::runtime_error("HDF5: cannot close " + path_);
     }
   });
+  int rank = 0;
+  MPI_Comm_rank(handle_->communicator, &rank);
+  if (rank == 0 && std::exchange(handle_->noted, false)) drop_undo(path_);
 }
 
 void Hdf5File::reserve(std::size_t bytes) {
@@ -177,13 +183,55 @@ void Hdf5File::reserve(std::size_t bytes) {
                       std::string(std::strerror(problem)) + "; what was written before is whole"});
 }
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator)
+namespace {
+
+/// Adds where a group's arrays, and those of groups in it, have their values in the file.
+void add_array_bytes(hid_t group, std::vector<ArrayBytes>& all) {
+  H5G_info_t info;
+  ensure(H5Gget_info(group, &info), "list a group");
+  for (hsize_t n = 0; n < info.nlinks; ++n) {
+    const Id object(H5Oopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, n, H5P_DEFAULT), H5Oclose,
+                    "open an object");
+    if (H5Iget_type(object) == H5I_GROUP) add_array_bytes(object, all);
+    if (H5Iget_type(object) != H5I_DATASET) continue;
+    const haddr_t from = H5Dget_offset(object);  // none where there are no values yet, or they lie in pieces
+    if (from != HADDR_UNDEF) all.push_back({from, H5Dget_storage_size(object)});
+  }
+}
+
+/// On one rank: takes back what a killed writer left, and notes what there is.
+void note_growth(const std::string& path, bool anew) {
+  undo_if_killed(path);
+  std::vector<ArrayBytes> all;
+  const bool grows = !anew && std::filesystem::exists(path);
+  if (grows) {
+    const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
+    add_array_bytes(file, all);
+  }
+  write_undo(path, grows ? std::filesystem::file_size(path) : 0, std::move(all));
+}
+
+}  // namespace
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Growth growth)
     : handle_(std::make_unique<Handle>()), path_(path) {
   handle_->communicator = communicator;
   handle_->reads = mode == Mode::read;
   H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is thrown, not printed
   int rank = 0, there = 0;
   MPI_Comm_rank(communicator, &rank);
+  if (growth == Growth::noted) {
+    on_first_rank("HDF5", communicator, [&] {
+      try {
+        note_growth(path, mode == Mode::create);
+      } catch (const std::runtime_error& problem) {
+        if (dynamic_cast<const UserError*>(&problem) != nullptr) throw;
+        throw_user_error({"HDF5", "file", path, "be writable, and HDF5 where it is continued",
+                          "check its folder, or take another name"});
+      }
+    });
+    handle_->noted = true;
+  }
   std::error_code ignored;
   if (rank == 0) there = std::filesystem::exists(path, ignored) ? 1 : 0;
   MPI_Bcast(&there, 1, MPI_INT, 0, communicator);

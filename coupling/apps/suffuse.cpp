@@ -20,6 +20,7 @@
 #include "lammps.h"
 #include "register_styles.h"
 #include "suffuse/common/collective_text.h"
+#include "suffuse/common/end_together.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/script_variables.h"
@@ -71,7 +72,7 @@ bool answered_without_a_script(int argc, char** argv) {
   }
   if (given(argc, argv, "--styles")) {
     for (const std::string& name : suffuse::registered_styles()) fmt::print("{}\n", name);
-    fmt::print("command lbm\n");
+    fmt::print("command lbm\ncommand restart_set\n");
     return true;
   }
   return false;
@@ -182,6 +183,9 @@ int run_script(int argc, char** argv, int rank) {
     suffuse::coupling::LbmCommand::remove_from(lmp);
     delete lmp;
     return 0;
+  } catch (const suffuse::LostRun& end) {
+    tell_the_end(fmt::format("suffuse: error: {}", end.what()), lmp, rank);
+    return suffuse::kLostRunExitCode;
   } catch (const suffuse::UserError& problem) {
     // Thrown on all ranks alike; the half-built LIGGGHTS is left to the operating system.
     tell_the_end(fmt::format("suffuse: error: {}", problem.what()), lmp, rank);
@@ -213,6 +217,8 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm ends = MPI_COMM_NULL;
+  MPI_Comm_dup(MPI_COMM_WORLD, &ends);
   int code = 0;
   const bool own_option = given(argc, argv, "--help") || given(argc, argv, "-help") ||
                           given(argc, argv, "-h") || given(argc, argv, "--version") ||
@@ -221,6 +227,7 @@ int main(int argc, char** argv) {
     if (rank == 0) answered_without_a_script(argc, argv);
   } else {
     code = run_script(argc, argv, rank);
+    if (code != 0) suffuse::end_together(ends, code);
   }
   if (suffuse::Hdf5File::left_open()) {
     std::fflush(nullptr);

@@ -4,13 +4,21 @@
 
 #include <csignal>
 
+#include "exit_codes.h"
+#include "wall_limit.h"
+
 namespace suffuse::coupling {
 
-std::string signal_name(int signal) {
-  if (signal == SIGTERM) return "SIGTERM";
-  if (signal == SIGINT) return "SIGINT";
-  if (signal == SIGUSR1) return "SIGUSR1";
-  return fmt::format("signal {}", signal);
+std::string stop_name(int stop) {
+  if (stop == SIGTERM) return "SIGTERM";
+  if (stop == SIGINT) return "SIGINT";
+  if (stop == SIGUSR1) return "SIGUSR1";
+  if (stop == kWallLimitStops) return "its wall-time limit";
+  return fmt::format("signal {}", stop);
+}
+
+int exit_code_of_stop(int stop) {
+  return stop == kWallLimitStops ? exit_code::time_limit : exit_code::signal + stop;
 }
 
 }  // namespace suffuse::coupling

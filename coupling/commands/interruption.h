@@ -6,20 +6,22 @@
 
 namespace suffuse::coupling {
 
-/// A signal has ended a run, which is saved and closed. Thrown on all ranks alike; ends the script.
+/// A run has ended before its end, by a signal, by the clock or by a guard, and is saved and closed. Thrown
+/// on all ranks alike; ends the script.
 class Interrupted final : public std::exception {
  public:
-  Interrupted(int signal, std::string text) : signal_(signal), text_(std::move(text)) {}
+  Interrupted(int exit_code, std::string text) : exit_code_(exit_code), text_(std::move(text)) {}
   const char* what() const noexcept override { return text_.c_str(); }
-  /// 128 and the signal's number, as shells have it.
-  int exit_code() const { return 128 + signal_; }
+  int exit_code() const { return exit_code_; }
 
  private:
-  int signal_;
+  int exit_code_;
   std::string text_;
 };
 
-/// "SIGTERM", "SIGINT", "SIGUSR1".
-std::string signal_name(int signal);
+/// "SIGTERM", "SIGINT", "SIGUSR1", or what else has stopped a run (wall_limit.h).
+std::string stop_name(int stop);
+/// What the program ends with then (exit_codes.h).
+int exit_code_of_stop(int stop);
 
 }  // namespace suffuse::coupling

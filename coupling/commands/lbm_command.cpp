@@ -9,6 +9,8 @@
 
 #include "../liggghts/fluid_box.h"
 #include "../liggghts/restart_commands.h"
+#include "../liggghts/restart_instant.h"
+#include "../liggghts/saving_verlet.h"
 #include "domain.h"
 #include "fix.h"
 #include "lammps.h"
@@ -47,6 +49,7 @@ void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
 }  // namespace
 
 void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
+  WallLimit::start_clock();
   add_restart_commands(lmp);
   add_command(lmp, "lbm", &run_line);
 }
@@ -57,8 +60,8 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
-      "plan, accuracy, run, restart, clear";
+      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, monitor, "
+      "output, plan, accuracy, run, restart, stop, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
@@ -74,6 +77,8 @@ void LbmCommand::line(int narg, char** arg) {
     read_force(reader, lmp_, settings_);
   } else if (word == "couple") {
     read_couple(reader, settings_);
+  } else if (word == "guard") {
+    read_guard(reader, settings_);
   } else if (word == "monitor") {
     read_monitor(reader, settings_);
   } else if (word == "output") {
@@ -87,6 +92,9 @@ void LbmCommand::line(int narg, char** arg) {
     run(reader);
   } else if (word == "restart") {
     restart(reader);
+  } else if (word == "stop") {
+    if (!reader.accept("after")) reader.unknown(reader.word("after"), "after TIME");
+    settings_.wall_limit = WallLimit::read(reader);
   } else if (word == "clear") {
     simulation_.reset();
     port_.reset();
@@ -143,7 +151,9 @@ void LbmCommand::restart(ArgumentReader& reader) {
       throw_user_error(
           {reader.who(), "fluid", "none", "exist", "write it after `lbm run`, or with `every T`"});
     } else {
+      put_grains_in_order(lmp_);
       write_checkpoint(lmp_, *simulation_, output_.references(), file);
+      simulation_->map_anew();
     }
   } else {
     reader.unknown(mode, "write, read");
@@ -336,6 +346,10 @@ void LbmCommand::run(ArgumentReader& reader) {
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
   refuse_double_buoyancy();
+  require_no_sets_of_grains(lmp_, reader.who());
+  if (settings_.wall_limit.given() && !settings_.checkpoint)
+    throw_user_error({"lbm stop", "after", settings_.wall_limit.text(), "have a place for the state",
+                      "write `lbm restart write FILE every T` before `lbm run`"});
   if (simulation_ == nullptr) {
     build();
   } else {

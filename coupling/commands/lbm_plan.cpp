@@ -31,11 +31,11 @@ class HeldGrains final : public ParticlePort {
   GrainArrays grains() override {
     const GrainArrays arrays = port_.grains();
     load_.resize(6 * static_cast<std::size_t>(arrays.owned));
-    history_.resize(kHistoryLength * static_cast<std::size_t>(arrays.owned));
+    records_.resize(static_cast<std::size_t>(arrays.owned));
     return arrays;
   }
   void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
-  GrainMemory memory() override { return {load_.data(), history_.data()}; }
+  GrainMemory memory() override { return {load_.data(), records_.data()}; }
   bool reads_loads(int) override { return reads_loads_; }
   double time_step() const override { return port_.time_step(); }
   void advance(int) override {}
@@ -43,7 +43,8 @@ class HeldGrains final : public ParticlePort {
  private:
   ParticlePort& port_;
   bool reads_loads_;
-  std::vector<double> load_, history_;
+  std::vector<double> load_;
+  std::vector<GrainRecord> records_;
 };
 
 double slowest(double mine, MPI_Comm communicator) {

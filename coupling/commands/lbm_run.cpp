@@ -11,7 +11,6 @@
 #include "interruption.h"
 #include "lammps.h"
 #include "manifest.h"
-#include "styles/scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/signal_watch.h"
@@ -23,8 +22,9 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Fluid steps between looks at Mach number and density: sound crosses this many cells meanwhile.
-constexpr long kCheckEvery = 100;
+/// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the time,
+/// and more often once a flow is near its limit.
+constexpr long kCheckEvery = 250, kCheckNearLimitEvery = 50;
 
 /// Grains faster than this many viscosities a cell have a drag that is some 2 % too large in beds that carry
 /// their water (docs/decisions/solid-operator.md).
@@ -41,7 +41,15 @@ constexpr double kSameGravity = 2e-3;
 
 LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
                CoupledSimulation& simulation, RunOutput& output)
-    : lmp_(lmp), settings_(settings), port_(port), simulation_(simulation), output_(output) {}
+    : lmp_(lmp),
+      settings_(settings),
+      port_(port),
+      simulation_(simulation),
+      output_(output),
+      guards_(settings.guards, simulation),
+      census_(lmp) {
+  guards_.set_warned(output.warned());
+}
 
 void LbmRun::say(const std::string& line) const {
   tell(lmp_, line + "\n");
@@ -73,12 +81,48 @@ std::string LbmRun::details() const {
 
 void LbmRun::check(long step) {
   // Before anything is written, too: nothing of a flow that is lost.
-  if (step % kCheckEvery != 0 && step != last_ && step != first_ && !output_.due(step)) return;
-  extremes_ = simulation_.fluid().extremes();
+  const long every = near_limit_ ? kCheckNearLimitEvery : kCheckEvery;
+  if (step % every != 0 && step != last_ && step != first_ && !output_.due(step)) return;
+  const PlaneSums* sums = output_.sample_now(step, simulation_);
+  extremes_ = sums != nullptr ? sums->extremes : simulation_.fluid().extremes();
   refuse_grains_behind_walls(simulation_);
-  if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
-  lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
-                      "lbm run");
+  const GuardReading now = reading(extremes_);
+  fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
+  near_limit_ = extremes_.largest_speed * std::sqrt(3.) > kWarnShare * settings_.largest_mach;
+  const std::vector<std::string> warnings = guards_.look(now);
+  for (const std::string& line : warnings) say(line);
+  if (warnings.empty()) return;
+  output_.set_warned(guards_.warned());
+  if (step > first_) (void)output_.save(lmp_, port_, simulation_);  // while the state is still good
+}
+
+GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
+  GuardReading now;
+  now.fluid = fluid;
+  now.mach_limit = settings_.largest_mach;
+  if (grains_ > 0) now.fastest_grain = port_.summary().speed;
+  if (solid_volume_ > 0)
+    now.overlap = simulation_.overlap() * std::pow(simulation_.units().spacing(), 3) / solid_volume_;
+  now.lost_grains = census_.lost();
+  if (is_closed_for_water()) now.stored_mass = fluid.stored_mass;
+  now.mass_at_rest =
+      static_cast<double>(lbm::CellBox{{0, 0, 0}, simulation_.fluid().decomposition().cells()}.volume());
+  return now;
+}
+
+bool LbmRun::is_closed_for_water() const {
+  const lbm::FaceConditions& faces = simulation_.fluid().settings().faces;
+  return std::none_of(faces.begin(), faces.end(), [](const lbm::FaceCondition& face) {
+    return face.kind == lbm::FaceKind::pressure || face.kind == lbm::FaceKind::velocity;
+  });
+}
+
+/// Where to go on from after a run that a guard has ended.
+std::string LbmRun::with_last_state(const std::string& reason) const {
+  const std::string state = output_.last_state();
+  return fmt::format("{}; the run ended after fluid step {}, {}", reason, simulation_.fluid().steps(),
+                     state.empty() ? "no state is saved: `lbm restart write FILE every T` before the run"
+                                   : "the last good state is in " + state);
 }
 
 /// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
@@ -117,6 +161,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   set_values();
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
+  solid_volume_ = grains.solid_volume;
   for (const std::string& line : manifest(simulation_, grains, effects, request.walls))
     say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
@@ -166,14 +211,20 @@ bool LbmRun::look(long step, const RunRequest& request) {
 /// Saves the state where restart files were asked for, and says so.
 std::string LbmRun::interruption_text(int signal) {
   const std::string where =
-      fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", signal_name(signal),
+      fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", stop_name(signal),
                   simulation_.fluid().steps(), simulation_.time_si());
   simulation_.map();
-  if (const auto file = output_.save(lmp_, simulation_))
+  if (const auto file = output_.save(lmp_, port_, simulation_))
     return fmt::format(
         "{}; the state is in {} and {}.grains: go on with `read_restart` and `lbm restart read`", where,
         *file, *file);
   return where + "; nothing saved: `lbm restart write FILE every T` before the run would have";
+}
+
+/// 0, or why this rank wants to stop.
+int LbmRun::stop_here() const {
+  if (lmp_->comm->me == 0 && settings_.wall_limit.is_over()) return kWallLimitStops;
+  return SignalWatch::received();
 }
 
 std::string LbmRun::table() {
@@ -223,7 +274,6 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
-  const GrainCensus census(lmp_);
   begin(request, effects, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
@@ -231,10 +281,14 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   int stop = 0;
   for (long step = first_ + 1; step <= last_ && !steady && stop == 0; ++step) {
     steady = is_last;
-    advance(step, is_last);
-    is_last = look(step, request);
+    try {
+      advance(step, is_last);
+      is_last = look(step, request);
+    } catch (const LostRun& end) {  // on all ranks alike
+      throw LostRun(with_last_state(end.what()));
+    }
     progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
-    stop = port_.stop_requested(SignalWatch::received());
+    stop = port_.stop_requested(stop_here());
   }
   const bool interrupted = stop > LiggghtsPort::kFixStops;
   const std::string last_words = interrupted ? interruption_text(stop) : "";
@@ -243,14 +297,14 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   port_.end();
   port_.set_fluid_time(simulation_.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
-  census.tell_lost();
+  census_.tell_lost();
   const std::string where_time_went = table();
   if (request.steady)
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
                     simulation_.units().time_to_si(made)));
   say(where_time_went);
   if (const auto note = drag_note()) say(*note);
-  if (interrupted) throw Interrupted(stop, last_words);
+  if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
 }
 
 }  // namespace suffuse::coupling

@@ -7,7 +7,9 @@
 
 #include "../liggghts/liggghts_port.h"
 #include "lbm_settings.h"
+#include "run_guards.h"
 #include "run_output.h"
+#include "styles/scene_checks.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
 
@@ -39,10 +41,14 @@ class LbmRun {
   void advance(long step, bool is_last);
   bool look(long step, const RunRequest& request);
   std::string interruption_text(int signal);
+  int stop_here() const;
   void set_values();
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
   void check(long step);
+  GuardReading reading(const lbm::FluidExtremes& fluid) const;
+  bool is_closed_for_water() const;
+  std::string with_last_state(const std::string& reason) const;
   bool is_steady(double share);
   std::string details() const;
   std::string table();
@@ -59,6 +65,10 @@ class LbmRun {
   std::int64_t grains_ = 0;
   double start_ = 0;
   lbm::FluidExtremes extremes_;
+  RunGuards guards_;
+  GrainCensus census_;
+  bool near_limit_ = false;   ///< the Mach number, at the last look
+  double solid_volume_ = 0;   ///< of the grains, m^3
   double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
   std::optional<Vec3> last_flow_, last_motion_;
 };

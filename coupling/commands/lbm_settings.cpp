@@ -305,6 +305,27 @@ void read_couple(ArgumentReader& reader, LbmSettings& settings) {
   settings.largest_mach = largest_mach;
 }
 
+void read_guard(ArgumentReader& reader, LbmSettings& settings) {
+  GuardLimits limits = settings.guards;
+  constexpr double most = 1e300;
+  while (!reader.done()) {
+    if (reader.keyword("density")) {
+      limits.density = positive_within(reader, "density", 0, most);
+    } else if (reader.keyword("motion")) {
+      limits.motion = positive_within(reader, "motion", 0, most);
+    } else if (reader.keyword("overlap")) {
+      limits.overlap = positive_within(reader, "overlap", 0, most);
+    } else if (reader.keyword("mass")) {
+      limits.mass = positive_within(reader, "mass", 0, most);
+    } else if (reader.keyword("lost")) {
+      limits.stop_if_lost = choose<bool>(reader, "lost", {{"stop", true}, {"warn", false}});
+    } else {
+      reader.unknown(reader.word("keyword"), "density, motion, overlap, mass, lost");
+    }
+  }
+  settings.guards = limits;
+}
+
 void read_monitor(ArgumentReader& reader, LbmSettings& settings) {
   const std::string id = reader.word("ID of the monitor");
   if (reader.accept("off")) {

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "monitor_request.h"
+#include "run_guards.h"
 #include "script_value.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/field_output.h"
+#include "wall_limit.h"
 
 namespace suffuse::coupling {
 
@@ -60,6 +62,8 @@ struct LbmSettings {
   std::vector<MonitorRequest> monitors;
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;
+  WallLimit wall_limit;
+  GuardLimits guards;
 };
 
 /// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words
@@ -75,6 +79,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings);
 void read_walls(ArgumentReader& reader, LbmSettings& settings);
 void read_effect(ArgumentReader& reader, LbmSettings& settings);
 void read_couple(ArgumentReader& reader, LbmSettings& settings);
+void read_guard(ArgumentReader& reader, LbmSettings& settings);
 void read_monitor(ArgumentReader& reader, LbmSettings& settings);
 void read_output(ArgumentReader& reader, LbmSettings& settings);
 

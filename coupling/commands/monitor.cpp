@@ -74,10 +74,12 @@ void Monitor::open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after)
          fmt::format("{}: note: {} of an earlier run is now {}\n", who, request_.file, file_->earlier()));
 }
 
-void Monitor::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
+void Monitor::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
+                    const std::optional<PlaneSums>& planes) {
   if (simulation.fluid().steps() == last_step_) return;
   last_step_ = simulation.fluid().steps();
   Sample sample(lmp, port, simulation, request_.axis);
+  if (planes && planes->axis == request_.axis) sample.set_planes(*planes);
   std::vector<double> values{simulation.time_si()};
   lmp->modify->clearstep_compute();  // values of other steps are not those of this one
   for (const Quantity& quantity : quantities_) quantity.append(sample, values);

@@ -22,6 +22,8 @@ class Sample {
       : lmp(liggghts), port(grains_port), simulation(flow), axis(across) {}
 
   const PlaneSums& planes();
+  /// For those that are known already.
+  void set_planes(const PlaneSums& planes) { planes_ = planes; }
   const LiggghtsPort::Summary& grains();
   /// |g| of `lbm force gravity` times the density, or with 9.81 m/s^2 where there is none, N/m^3.
   double specific_weight() const;
@@ -65,8 +67,10 @@ class Monitor {
   long every() const { return every_; }
   const MonitorRequest& request() const { return request_; }
 
+  /// `planes`: sums of this step, if they are known; taken where they are across the monitor's axis.
   /// Collective.
-  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
+             const std::optional<PlaneSums>& planes = {});
 
  private:
   void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);

@@ -1,20 +1,14 @@
 #include "run_output.h"
 
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <vector>
 
-#include "../liggghts/restart_file.h"
-#include "atom.h"
+#include "../liggghts/grains_file.h"
 #include "comm.h"
-#include "domain.h"
 #include "lammps.h"
 #include "saved_set.h"
 #include "styles/style_support.h"
@@ -24,7 +18,6 @@
 #include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "update.h"
-#include "write_restart.h"
 
 namespace suffuse::coupling {
 
@@ -55,6 +48,8 @@ bool exists_for_all(const std::string& file, MPI_Comm communicator) {
   return exists != 0;
 }
 
+/// Before the name of a quantity among the monitors' references.
+constexpr const char* kWarnedMark = "warned of: ";
 /// LIGGGHTS's step in a saved state of the water.
 constexpr const char* kGrainsStep = "liggghts_step";
 
@@ -63,45 +58,12 @@ std::string grains_file(const std::string& file) {
   return (path.parent_path() / (path.stem().string() + "_grains" + path.extension().string())).string();
 }
 
-/// Writes with all grains inside of a periodic box. Between two neighbour lists a grain may stand outside,
-/// where no rank that reads the file would take it; its neighbours know it there, so that it is put back.
-void write_wrapped(LAMMPS_NS::LAMMPS* lmp, char* file) {
-  LAMMPS_NS::Atom& atom = *lmp->atom;
-  const auto grains = static_cast<std::size_t>(atom.nlocal);
-  double *x = grains > 0 ? atom.x[0] : nullptr, *v = grains > 0 ? atom.v[0] : nullptr;
-  const std::vector<double> positions(x, x + 3 * grains), velocities(v, v + 3 * grains);
-  const std::vector images(atom.image, atom.image + grains);
-  lmp->domain->pbc();
-  LAMMPS_NS::WriteRestart(lmp).write(file);
-  std::copy(positions.begin(), positions.end(), x);
-  std::copy(velocities.begin(), velocities.end(), v);
-  std::copy(images.begin(), images.end(), atom.image);
-}
-
 }  // namespace
-
-/// LIGGGHTS does not check what it writes: its file goes to memory, and from there to the disk.
-void write_grains_file(LAMMPS_NS::LAMMPS* lmp, const std::string& path) {
-  constexpr const char* who = "lbm restart write";
-  int memory = -1;
-  on_first_rank(who, lmp->world, [&] {
-    memory = memfd_create("grains", MFD_CLOEXEC);
-    if (memory < 0) throw_user_error({who, "file", path, "find memory for the grains", std::strerror(errno)});
-  });
-  std::string in_memory = fmt::format("/proc/self/fd/{}", memory);
-  write_wrapped(lmp, in_memory.data());
-  on_first_rank(who, lmp->world, [&] {
-    const bool whole = is_whole_restart_file(in_memory);
-    if (whole) write_checked(memory, path, who);
-    close(memory);
-    if (!whole)
-      throw_user_error({who, "grains", path, "be written whole by LIGGGHTS", "is there memory for them?"});
-  });
-}
 
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
                       const MonitorReferences& references, const std::string& file) {
-  const NewSet set = begin_set(file, lmp->world);
+  const std::string who = "lbm restart write";
+  const NewSet set = begin_set(file, who, lmp->world);
   lbm::save_state(simulation.fluid(), set.fluid);
   {
     Hdf5File state(set.fluid, Hdf5File::Mode::append, lmp->world);
@@ -114,8 +76,8 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
     save_walls(state, simulation);
     state.close();
   }
-  write_grains_file(lmp, set.grains);
-  finish_set(file, lmp->world);
+  write_grains_file(lmp, set.grains, who);
+  finish_set(file, who, lmp->world);
 }
 
 namespace {
@@ -176,7 +138,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  if (checkpoint_) require_free_for_sets(checkpoint_->file, lmp->world);
+  if (checkpoint_) require_free_for_sets(checkpoint_->file, "lbm restart write", lmp->world);
   checkpoint_every_ = checkpoint_ ? simulation.units().steps_in(checkpoint_->every) : 0;
 }
 
@@ -199,9 +161,10 @@ bool RunOutput::due(long step) const {
 
 void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
   const long step = simulation.fluid().steps();
+  if (saves(step)) (void)save(lmp, port, simulation);
   simulation.map();  // cells as the grains are now
   for (const auto& monitor : monitors_)
-    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation);
+    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation, sample_);
   for (const auto& fields : fields_) {
     const bool first = fields->last_step < 0 && !fields->continues;
     if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
@@ -210,7 +173,6 @@ void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulat
     if (!fields->grains) continue;
     write_grains(*fields, port, simulation);
   }
-  if (checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0) (void)save(lmp, simulation);
   started_ = true;
 }
 
@@ -228,15 +190,47 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
   fields.grains->write(snapshot, simulation.fluid().decomposition().communicator());
 }
 
-std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const {
+/// Before anything else is written at this instant, so that a run which takes the state up writes the same.
+std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                                           CoupledSimulation& simulation) {
   if (!checkpoint_) return {};
   simulation.refresh_loads();  // the grains' memory is saved with them
+  port.set_up_again();
   write_checkpoint(lmp, simulation, references(), checkpoint_->file);
+  simulation.map_anew();
+  sample_.reset();  // of cells as they were
+  last_state_ = fmt::format("{} (fluid step {})", checkpoint_->file, simulation.fluid().steps());
   return checkpoint_->file;
+}
+
+const PlaneSums* RunOutput::sample_now(long step, CoupledSimulation& simulation) {
+  sample_.reset();
+  const auto due = std::find_if(monitors_.begin(), monitors_.end(),
+                                [&](const auto& monitor) { return step % monitor->every() == 0; });
+  if (due == monitors_.end() || saves(step)) return nullptr;
+  simulation.map();
+  sample_ = plane_sums(simulation, (*due)->request().axis);
+  return &*sample_;
+}
+
+/// What a guard has warned of travels with the monitors' references, under a name that no monitor has.
+void RunOutput::set_references(MonitorReferences references) {
+  constexpr std::string_view mark = kWarnedMark;
+  std::erase_if(references, [&](const auto& entry) {
+    if (!entry.first.starts_with(mark)) return false;
+    warned_.insert(entry.first.substr(mark.size()));
+    return true;
+  });
+  references_ = std::move(references);
+}
+
+bool RunOutput::saves(long step) const {
+  return checkpoint_every_ > 0 && started_ && step % checkpoint_every_ == 0;
 }
 
 MonitorReferences RunOutput::references() const {
   MonitorReferences all;
+  for (const std::string& name : warned_) all[kWarnedMark + name] = {1};
   for (const auto& monitor : monitors_) monitor->add_references(all);
   return all;
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "monitor.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/grain_output.h"
+#include "suffuse/coupling/plane_sums.h"
 
 namespace suffuse::coupling {
 
@@ -34,12 +36,24 @@ class RunOutput {
   /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
 
-  /// Saves the state now where restart files were asked for; says in which file. Collective.
-  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, CoupledSimulation& simulation) const;
+  /// Saves the state now, within a run, where restart files were asked for; says in which file. The run goes
+  /// on as one that takes this state up (restart_instant.h). Collective.
+  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+
+  /// Which states this process has saved or taken up last: its file and step; empty: none.
+  std::string last_state() const { return last_state_; }
+
+  /// Quantities that a guard has warned of (run_guards.h); they are saved with a state.
+  const std::set<std::string>& warned() const { return warned_; }
+  void set_warned(std::set<std::string> warned) { warned_ = std::move(warned); }
+
+  /// The sums over planes that the monitors which are due want, as `write` will use them; null where nothing
+  /// is due, or a state is saved before. Collective.
+  const PlaneSums* sample_now(long step, CoupledSimulation& simulation);
 
   /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.
   MonitorReferences references() const;
-  void set_references(MonitorReferences references) { references_ = std::move(references); }
+  void set_references(MonitorReferences references);
 
  private:
   struct Fields {
@@ -50,6 +64,7 @@ class RunOutput {
     std::optional<GrainOutput> grains;
   };
 
+  bool saves(long step) const;
   static void write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
@@ -58,6 +73,9 @@ class RunOutput {
   std::optional<CheckpointRequest> checkpoint_;
   long checkpoint_every_ = 0;
   bool started_ = false;
+  std::string last_state_;
+  std::set<std::string> warned_;
+  std::optional<PlaneSums> sample_;  ///< of the step that is about to be written
 };
 
 /// Saves fluid, what monitors refer to, and LIGGGHTS's own restart file as one set (saved_set.h). Collective.

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -23,10 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kWho = "lbm restart write";
 constexpr const char* kFluid = "fluid.h5";
 constexpr const char* kGrains = "grains";
 constexpr const char* kSet = "set";
+/// The first line of it: raised with its layout.
+constexpr const char* kVersion = "suffuse state, version 2\n";
 
 std::string folder(const std::string& file, int n) {
   return fmt::format("{}.{}", file, n);
@@ -45,16 +48,16 @@ bool is_there(const std::string& path) {
   return fs::exists(fs::symlink_status(path));
 }
 
-void require_free(const std::string& file) {
+void require_free(const std::string& file, const std::string& who) {
   const std::string grains = file + ".grains";
   const bool ours = last_of(file).has_value();
   if ((is_there(file) && !ours) || (is_there(grains) && !fs::is_symlink(fs::symlink_status(grains))))
-    throw_user_error({kWho, "file", file, "be a name that is free, or of states that this command wrote",
+    throw_user_error({who, "file", file, "be a name that is free, or of states that this command wrote",
                       "take another name, or move what is there away"});
   const fs::path place = fs::path(file).parent_path();
   if (const std::string at = place.empty() ? "." : place.string();
       !fs::is_directory(at) || access(at.c_str(), W_OK) != 0)
-    throw_user_error({kWho, "file", file, "be writable", "check its folder"});
+    throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
 
 /// Makes `link` point to `target`, in one step for whoever looks.
@@ -65,12 +68,18 @@ void set_link(const std::string& target, const std::string& link) {
   fs::rename(fresh, link);
 }
 
-/// FNV-1a over bytes, 64 bits.
+/// FNV-1a over words of eight bytes (the last filled up with zeros), 64 bits, each followed by a shift that
+/// carries high bits down: a sum of gigabytes costs little beside their writing.
 class Sum {
  public:
+  /// All blocks but the last are whole words.
   void add(const char* bytes, std::size_t count) {
-    for (std::size_t n = 0; n < count; ++n)
-      value_ = (value_ ^ static_cast<unsigned char>(bytes[n])) * 1099511628211ULL;
+    for (std::size_t n = 0; n < count; n += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + n, std::min(sizeof(word), count - n));
+      value_ = (value_ ^ word) * 1099511628211ULL;
+      value_ ^= value_ >> 32;
+    }
   }
   std::uint64_t value() const { return value_; }
 
@@ -89,9 +98,11 @@ std::uint64_t sum_of(const std::string& path) {
 
 /// What `set` says of the files beside it.
 std::string contents(const fs::path& set) {
-  return fmt::format("suffuse state, version 1\n{} bytes\n{} bytes, sum {:016x}\n",
-                     fs::file_size(set / kFluid), fs::file_size(set / kGrains),
-                     sum_of((set / kGrains).string()));
+  std::string text = kVersion;
+  for (const char* name : {kFluid, kGrains})
+    if (const fs::path file = set / name; is_there(file.string()))
+      text += fmt::format("{} {} bytes, sum {:016x}\n", name, fs::file_size(file), sum_of(file.string()));
+  return text;
 }
 
 std::string text_of(const fs::path& path) {
@@ -100,37 +111,40 @@ std::string text_of(const fs::path& path) {
 }
 
 void require_whole(const std::string& who, const std::string& file, const fs::path& set) {
-  const bool there = fs::is_regular_file(set / kFluid) && fs::is_regular_file(set / kGrains) &&
-                     fs::is_regular_file(set / kSet);
-  if (there && text_of(set / kSet) == contents(set)) return;
+  const bool there = fs::is_regular_file(set / kGrains) && fs::is_regular_file(set / kSet);
+  const std::string said = there ? text_of(set / kSet) : "";
+  if (there && said == contents(set)) return;
+  if (said.starts_with("suffuse state") && !said.starts_with(kVersion))
+    throw_user_error({who, "file", file, "be a state of version 2, not of " + said.substr(0, said.find('\n')),
+                      "read it with the version of suffuse that wrote it"});
   throw_user_error({who, "file", file, "be whole, as it was saved",
                     "it is damaged or unfinished; the state before it is in the folder NAME.1 or NAME.2"});
 }
 
 }  // namespace
 
-void require_free_for_sets(const std::string& file, MPI_Comm communicator) {
-  on_first_rank(kWho, communicator, [&] { require_free(file); });
+void require_free_for_sets(const std::string& file, const std::string& who, MPI_Comm communicator) {
+  on_first_rank(who, communicator, [&] { require_free(file, who); });
 }
 
-NewSet begin_set(const std::string& file, MPI_Comm communicator) {
+NewSet begin_set(const std::string& file, const std::string& who, MPI_Comm communicator) {
   const std::string fresh = file + ".new";
-  on_first_rank(kWho, communicator, [&] {
-    require_free(file);
+  on_first_rank(who, communicator, [&] {
+    require_free(file, who);
     fs::remove_all(fresh);
     fs::create_directory(fresh);
   });
   return {fresh + "/" + kFluid, fresh + "/" + kGrains};
 }
 
-void finish_set(const std::string& file, MPI_Comm communicator) {
-  on_first_rank(kWho, communicator, [&] {
+void finish_set(const std::string& file, const std::string& who, MPI_Comm communicator) {
+  on_first_rank(who, communicator, [&] {
     const std::string fresh = file + ".new";
-    wait_for_disk(fresh + "/" + kFluid, kWho);
-    SafeFile set(fresh + "/" + kSet, kWho);
+    if (is_there(fresh + "/" + kFluid)) wait_for_disk(fresh + "/" + kFluid, who);
+    SafeFile set(fresh + "/" + kSet, who);
     set.write(contents(fresh));
     set.commit();
-    wait_for_disk(fresh, kWho);
+    wait_for_disk(fresh, who);
     const std::string next = folder(file, 3 - last_of(file).value_or(2));
     fs::remove_all(next);
     fs::rename(fresh, next);
@@ -138,13 +152,16 @@ void finish_set(const std::string& file, MPI_Comm communicator) {
     if (const std::string grains = file + ".grains"; !is_there(grains))
       set_link((fs::path(file).filename() / kGrains).string(), grains);
     const fs::path place = fs::path(file).parent_path();
-    wait_for_disk(place.empty() ? "." : place.string(), kWho);
+    wait_for_disk(place.empty() ? "." : place.string(), who);
   });
 }
 
 std::string fluid_of_set(const std::string& file) {
   if (fs::is_directory(file)) {
     require_whole("lbm restart read", file, file);
+    if (!is_there((fs::path(file) / kFluid).string()))
+      throw_user_error({"lbm restart read", "file", file, "have water in it",
+                        "it was saved by `restart_set` of a dry scene; leave the line out"});
     return (fs::path(file) / kFluid).string();
   }
   if (!fs::is_regular_file(file))

@@ -18,6 +18,7 @@
 #include "lammps.h"
 #include "modify.h"
 #include "output.h"
+#include "restart_instant.h"
 #include "signal_handling.h"
 #include "styles/early_stop.h"
 #include "styles/fix_contact_sampler.h"
@@ -32,12 +33,6 @@ namespace suffuse::coupling {
 using LAMMPS_NS::bigint;
 using LAMMPS_NS::FixHydrodynamicForce;
 using LAMMPS_NS::LAMMPS;
-
-static_assert(FixHydrodynamicForce::kHistoryValues == kHistoryLength &&
-              FixHydrodynamicForce::kAcceleration == history::acceleration &&
-              FixHydrodynamicForce::kAngularAcceleration == history::angular_acceleration &&
-              FixHydrodynamicForce::kVirtualMass == history::virtual_mass &&
-              FixHydrodynamicForce::kVirtualMoment == history::virtual_moment);
 
 namespace {
 
@@ -140,17 +135,16 @@ void LiggghtsPort::sum_over_copies(std::vector<double>& force, std::vector<doubl
 
 GrainMemory LiggghtsPort::memory() {
   if (lmp_->atom->nlocal == 0) return {};
-  if (all_grains_) return {fix_->load(), fix_->history()};
+  if (all_grains_) return {fix_->load(), fix_->records()};
   keep_memory();
-  history_.clear();
+  records_.clear();
   for (const int i : local_) {
     if (i >= lmp_->atom->nlocal) break;
-    const double *load = fix_->load() + FixHydrodynamicForce::kLoadValues * i,
-                 *history = fix_->history() + kHistoryLength * i;
+    const double* load = fix_->load() + FixHydrodynamicForce::kLoadValues * i;
     load_.insert(load_.end(), load, load + FixHydrodynamicForce::kLoadValues);
-    history_.insert(history_.end(), history, history + kHistoryLength);
+    records_.push_back(fix_->records()[i]);
   }
-  return {load_.data(), history_.data()};
+  return {load_.data(), records_.data()};
 }
 
 bool LiggghtsPort::anything_moves() const {
@@ -285,7 +279,7 @@ void LiggghtsPort::keep_memory() {
   for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
     std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
                 fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
-    std::copy_n(&history_[kHistoryLength * n], kHistoryLength, fix_->history() + kHistoryLength * local_[n]);
+    fix_->records()[local_[n]] = records_[n];
   }
   load_.clear();
 }
@@ -331,6 +325,11 @@ void LiggghtsPort::begin(std::int64_t steps) {
   update->integrate->setup();
   lmp_->timer->init();
   keep_box();
+}
+
+void LiggghtsPort::set_up_again() {
+  keep_memory();
+  coupling::set_up_again(lmp_);
 }
 
 void LiggghtsPort::keep_box() {

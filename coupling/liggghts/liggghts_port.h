@@ -42,6 +42,9 @@ class LiggghtsPort final : public ParticlePort {
 
   /// Sets LIGGGHTS up for a run of at most so many steps. Collective.
   void begin(std::int64_t steps);
+  /// Within a run, before its state is saved: restart_instant.h. What grains() and memory() gave is no longer
+  /// valid. Collective.
+  void set_up_again();
   /// The next `advance` shall be the last: the thermo line and dumps of the end are written in it.
   void end_after(int substeps);
   void end();
@@ -152,7 +155,8 @@ class LiggghtsPort final : public ParticlePort {
   bool all_grains_ = true;            ///< the fix's group is `all`
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_;
+  std::vector<GrainRecord> records_;
   std::vector<int> id_;
 };
 

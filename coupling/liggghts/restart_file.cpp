@@ -15,7 +15,16 @@ namespace suffuse::coupling {
 namespace {
 
 /// Flags of the header in the order of LIGGGHTS's write_restart.cpp; those that are not named hold an int.
-enum Flag { version = 0, units = 4, ntimestep = 5, nprocs = 7, atom_style = 22, natoms = 23, nbonds = 25 };
+enum Flag {
+  version = 0,
+  units = 4,
+  ntimestep = 5,
+  nprocs = 7,
+  procgrid = 8,
+  atom_style = 22,
+  natoms = 23,
+  nbonds = 25
+};
 constexpr int kLastFlag = 51;
 bool is_text(int flag) {
   return flag == version || flag == units || flag == atom_style;
@@ -66,6 +75,7 @@ class Mapped {
 struct Header {
   std::int64_t grains = -1;
   int ranks = -1;
+  std::array<int, 3> grid{};
   std::size_t end = 0;
   bool hybrid = false;
 };
@@ -98,6 +108,8 @@ bool read_header(const Mapped& file, Header& header) {
     } else {
       got = file.get(at, whole);
       if (flag == nprocs) header.ranks = whole;
+      if (flag >= procgrid && flag < procgrid + 3)
+        header.grid[static_cast<std::size_t>(flag - procgrid)] = whole;
     }
     if (!got) return false;
   }
@@ -135,6 +147,14 @@ bool is_whole_restart_file(const std::string& path) {
   for (std::size_t at = header.end; at <= file.size(); ++at)
     if (grains_follow(file, at, header)) return true;
   return false;
+}
+
+std::optional<std::array<int, 3>> rank_grid_of(const std::string& path, int ranks) {
+  const Mapped file(path);
+  Header header;
+  if (!read_header(file, header) || header.ranks != ranks) return std::nullopt;
+  if (header.grid[0] * header.grid[1] * header.grid[2] != ranks) return std::nullopt;
+  return header.grid;
 }
 
 }  // namespace suffuse::coupling

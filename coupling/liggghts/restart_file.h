@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 namespace suffuse::coupling {
@@ -9,5 +11,9 @@ namespace suffuse::coupling {
 /// a record that begins with its own length. What lies between depends on styles and is not looked at. True
 /// for `atom_style hybrid`, whose header has more than flags and values.
 bool is_whole_restart_file(const std::string& path);
+
+/// How the box was shared among ranks along x, y, z when a restart file was written; none if it was written
+/// on another number of ranks.
+std::optional<std::array<int, 3>> rank_grid_of(const std::string& path, int ranks);
 
 }  // namespace suffuse::coupling

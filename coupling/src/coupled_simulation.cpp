@@ -69,6 +69,19 @@ Vec3 vector_at(const double* values, int n) {
   return Vec3(values[3 * n], values[3 * n + 1], values[3 * n + 2]);
 }
 
+void keep(double* values, const Vec3& vector) {
+  Eigen::Map<Vec3>{values} = vector;
+}
+
+/// What the next load refers to; `follows`: the record is of this fluid.
+GrainHistory history_of(const GrainRecord& record, bool follows) {
+  return {follows && record.known != 0,
+          vector_at(record.velocity, 0),
+          vector_at(record.angular_velocity, 0),
+          {vector_at(record.surface_force, 0), vector_at(record.surface_torque, 0)},
+          {vector_at(record.lead, 0), vector_at(record.spin_lead, 0)}};
+}
+
 /// Maps the spheres to the rows that the fluid is about to sweep, and adds up what they received after it.
 class MapAndSum final : public lbm::RowVisitor {
  public:
@@ -150,6 +163,12 @@ void CoupledSimulation::map() {
   mapping_.write();
 }
 
+void CoupledSimulation::map_anew() {
+  seen_ = {};
+  mapping_.forget();
+  map();
+}
+
 bool SeenGrains::same(const GrainArrays& grains) const {
   if (static_cast<std::size_t>(grains.total) != ids_.size()) return false;
   const auto equal = [&](const auto* now, const auto& then, std::size_t each) {
@@ -187,9 +206,9 @@ bool CoupledSimulation::survey_due(const GrainArrays& grains) {
   const GrainMemory memory = grains_.memory();
   long sums[2] = {0, grains.owned};
   for (int n = 0; n < grains.owned && sums[0] == 0; ++n) {
-    const double* h = memory.history + kHistoryLength * n;
-    const Vec3 moved = vector_at(grains.position, n) - Vec3(Eigen::Map<const Vec3>(h + history::surveyed_at));
-    if (h[history::surveyed] == 0 || (in_turn && moved.norm() > distance)) sums[0] = 1;
+    const GrainRecord& record = memory.record[n];
+    const Vec3 moved = vector_at(grains.position, n) - vector_at(record.surveyed_at, 0);
+    if (record.surveyed == 0 || (in_turn && moved.norm() > distance)) sums[0] = 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_LONG, MPI_SUM, fluid_.decomposition().communicator());
   const bool same_grains = surveyed_grains_ == kWhoeverIsThere || sums[1] == surveyed_grains_;
@@ -209,9 +228,9 @@ void CoupledSimulation::survey(const GrainArrays& grains) {
   mapping_.set_pore_coefficients(pores_.coefficients());
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
-    double* h = memory.history + kHistoryLength * n;
-    h[history::surveyed] = 1;
-    Eigen::Map<Vec3>(h + history::surveyed_at) = vector_at(grains.position, n);
+    GrainRecord& record = memory.record[n];
+    record.surveyed = 1;
+    keep(record.surveyed_at, vector_at(grains.position, n));
   }
   ++surveys_;
 }
@@ -275,35 +294,30 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const Lead lead{vector_at(lead_.data(), n), vector_at(spin_lead_.data(), n)};
     const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
                          vector_at(grains.angular_velocity, n)};
-    double* h = memory.history + kHistoryLength * n;
-    const auto past = [h](int place) { return Vec3(Eigen::Map<const Vec3>(h + place)); };
-    const auto keep = [h](int place, const Vec3& value) { Eigen::Map<Vec3>(h + place) = value; };
-    const GrainHistory before{follows && h[history::known] != 0,
-                              past(history::velocity),
-                              past(history::angular_velocity),
-                              {past(history::surface_force), past(history::surface_torque)},
-                              {past(history::lead), past(history::spin_lead)}};
+    GrainRecord& record = memory.record[n];
+    const GrainHistory before = history_of(record, follows);
     const Load surface = surface_load(exchange, lead, now, before, rule);
     const Load load = hydrodynamic_load(surface, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
     if (before.known) {
-      const auto follow = [&](int place, const Vec3& change) {
-        keep(place, past(place) + kPredictionRate * (change / rule.time_step - past(place)));
+      const auto follow = [&](double* mean, const Vec3& change) {
+        const Vec3 past = vector_at(mean, 0);
+        keep(mean, past + kPredictionRate * (change / rule.time_step - past));
       };
-      follow(history::acceleration, now.velocity - before.velocity);
-      follow(history::angular_acceleration, now.angular_velocity - before.angular_velocity);
+      follow(record.acceleration, now.velocity - before.velocity);
+      follow(record.angular_acceleration, now.angular_velocity - before.angular_velocity);
     }
     const VirtualInertia added = virtual_inertia(virtual_rule, now.radius, grains.mass[n]);
-    h[history::virtual_mass] = added.mass;
-    h[history::virtual_moment] = added.moment;
-    keep(history::velocity, now.velocity);
-    keep(history::angular_velocity, now.angular_velocity);
-    keep(history::surface_force, surface.force);
-    keep(history::surface_torque, surface.torque);
-    keep(history::lead, lead.momentum);
-    keep(history::spin_lead, lead.spin);
-    h[history::known] = 1;
+    record.virtual_mass = added.mass;
+    record.virtual_moment = added.moment;
+    keep(record.velocity, now.velocity);
+    keep(record.angular_velocity, now.angular_velocity);
+    keep(record.surface_force, surface.force);
+    keep(record.surface_torque, surface.torque);
+    keep(record.lead, lead.momentum);
+    keep(record.spin_lead, lead.spin);
+    record.known = 1;
   }
   loads_step_ = fluid_.steps();
 }

@@ -160,7 +160,8 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
   MPI_Comm_rank(communicator, &rank);
   std::string snapshots;
   {
-    Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator);
+    Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator,
+                  Hdf5File::Growth::noted);
     append_ = true;
     file.reserve(room_for(snapshot, communicator));
     for (const std::string& old : file.names_in("/"))

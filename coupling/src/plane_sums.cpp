@@ -31,7 +31,8 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   const auto along = static_cast<std::size_t>(axis);
   std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]) + 1, Sums{});
   Totals totals{};
-  double extremes[3] = {0, -1e300, -1e300};  // squared speed, density, -density
+  double extremes[4] = {0, -1e300, -1e300,
+                        0};  // squared speed, density, -density, anything that is no number
   fluid.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
     const double open = 1 - solid_fraction;
     const Vec3 solid = simulation.mapping().solid_flux(cell);
@@ -47,6 +48,8 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
     totals.mass += open * point.density;
     totals.energy += open * point.density * speed_squared;
     totals.stored += point.density - 1;
+    if (fluid.is_solid(cell)) return;
+    if (!std::isfinite(point.density) || !std::isfinite(speed_squared)) extremes[3] = 1;
     extremes[0] = std::max(extremes[0], speed_squared);
     extremes[1] = std::max(extremes[1], point.density);
     extremes[2] = std::max(extremes[2], -point.density);
@@ -54,7 +57,7 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   std::memcpy(&sums.back(), &totals, sizeof totals);  // they travel with the planes
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), kSums * static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 d.communicator());
-  MPI_Allreduce(MPI_IN_PLACE, extremes, 3, MPI_DOUBLE, MPI_MAX, d.communicator());
+  MPI_Allreduce(MPI_IN_PLACE, extremes, 4, MPI_DOUBLE, MPI_MAX, d.communicator());
   std::memcpy(&totals, &sums.back(), sizeof totals);
   sums.pop_back();
 
@@ -75,7 +78,7 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   planes.fluid_mass = cell_mass * totals.mass;
   planes.stored_mass = cell_mass * totals.stored;
   planes.fluid_kinetic_energy = 0.5 * cell_mass * totals.energy * std::pow(units.velocity_to_si(1.), 2);
-  planes.extremes = {std::sqrt(extremes[0]), -extremes[2], extremes[1], true};
+  planes.extremes = {std::sqrt(extremes[0]), -extremes[2], extremes[1], extremes[3] == 0, totals.stored};
   return planes;
 }
 

@@ -303,7 +303,7 @@ int main(int argc, char** argv) {
     if (status != 0) status = 1;
   } catch (const UserError& error) {  // on all ranks alike
     if (rank == 0) fmt::print(stderr, "\nsuffuse-flow: {}\n", error.what());
-    status = 1;
+    status = dynamic_cast<const LostRun*>(&error) != nullptr ? kLostRunExitCode : 1;
   } catch (const std::exception& failure) {  // maybe on this rank alone
     const std::string refusal = refusal_of_the_machine(failure);
     fmt::print(

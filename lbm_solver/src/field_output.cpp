@@ -115,7 +115,7 @@ void FieldOutput::write(const Fluid& fluid) {
   std::vector<Snapshot> snapshots;
   {
     const auto mode = started_ || settings_.append ? Hdf5File::Mode::append : Hdf5File::Mode::create;
-    Hdf5File file(settings_.path, mode, d.communicator());
+    Hdf5File file(settings_.path, mode, d.communicator(), Hdf5File::Growth::noted);
     started_ = true;
     std::size_t values = 0;
     for (const Field field : settings_.fields) values += field == Field::velocity ? 3 : 1;

@@ -212,8 +212,9 @@ Vec3 Fluid::momentum() const {
 }
 
 FluidExtremes Fluid::extremes() const {
-  double speed_squared = 0, high = -1e300, minus_low = -1e300, broken = 0;
+  double speed_squared = 0, high = -1e300, minus_low = -1e300, broken = 0, stored = 0;
   for_each_point([&](const Index3& cell, const FluidPoint& point, double) {
+    stored += point.density - 1;
     if (is_solid(cell)) return;
     if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
     speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
@@ -223,7 +224,8 @@ FluidExtremes Fluid::extremes() const {
   const double mine[4] = {speed_squared, high, minus_low, broken};
   double all[4];
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, core_->decomposition.communicator());
-  return {std::sqrt(all[0]), -all[2], all[1], all[3] == 0};
+  MPI_Allreduce(MPI_IN_PLACE, &stored, 1, MPI_DOUBLE, MPI_SUM, core_->decomposition.communicator());
+  return {std::sqrt(all[0]), -all[2], all[1], all[3] == 0, stored};
 }
 
 }  // namespace suffuse::lbm

@@ -34,10 +34,10 @@ void require_stable(const FluidExtremes& extremes, const Units& units, double ti
                     const std::string& who) {
   const std::string what = fmt::format("flow at {:.5g} s", time_si);
   constexpr double half = 0.5;
-  if (!extremes.finite) throw_user_error({who, what, "not a number", "stay finite", remedy(units, half)});
+  if (!extremes.finite) throw_lost_run({who, what, "not a number", "stay finite", remedy(units, half)});
   const double mach = mach_of(extremes);
   if (mach > largest_mach)
-    throw_user_error(
+    throw_lost_run(
         {who, what, fmt::format("Mach number {:.5g}", mach),
          fmt::format("stay below {:g}: a lattice fluid is nearly incompressible only there", largest_mach),
          remedy(units, std::min(half, largest_mach / mach))});

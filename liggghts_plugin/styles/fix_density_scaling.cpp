@@ -16,6 +16,7 @@
 #include "fix_stress_servo.h"
 #include "memory.h"
 #include "modify.h"
+#include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/coordination.h"
@@ -30,6 +31,8 @@ namespace mm = suffuse::micromechanics;
 namespace {
 
 constexpr const char* kWho = "fix density/scaling";
+/// Of its state in restart files.
+constexpr int kStateVersion = 1;
 /// Of a grain's weight: forces below are the rounding of the weight itself.
 constexpr double kNoForce = 1e-9;
 /// Masses agree with density times volume to this; LIGGGHTS writes π in 12 digits.
@@ -352,16 +355,12 @@ void FixDensityScaling::write_restart(FILE* file) {
   for (int i = 0; i < atom->nlocal; ++i)
     if (factor(i) > 1) atom->rmass[i] = true_mass(*atom, i);
   if (comm->me != 0) return;
-  const std::array<double, 2> values{reference_time_, share_};
-  const int size = sizeof(values);
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(values.data(), sizeof(double), values.size(), file);
+  suffuse::write_record(file, {kStateVersion, "", {reference_time_, share_}});
 }
 
 /// The reference time of `rayleigh` stays that of the first definition.
 void FixDensityScaling::restart(char* buffer) {
-  std::array<double, 2> values{};
-  std::memcpy(values.data(), buffer, sizeof(values));
+  const std::vector<double> values = suffuse::read_record(buffer, kStateVersion, 2, kWho).values;
   if (!by_size_ && values[1] == share_) reference_time_ = values[0];
 }
 

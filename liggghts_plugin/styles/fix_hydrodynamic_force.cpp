@@ -12,6 +12,7 @@
 #include "memory.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 #include "update.h"
@@ -20,7 +21,12 @@ using namespace LAMMPS_NS;
 using suffuse::throw_user_error;
 
 namespace {
-constexpr int kValues = FixHydrodynamicForce::kLoadValues + FixHydrodynamicForce::kHistoryValues;
+using suffuse::GrainRecord;
+constexpr int kValues = FixHydrodynamicForce::kLoadValues + suffuse::kGrainRecordValues;
+/// Of a grain in a restart file: the length, as LIGGGHTS wants it, the record's version, the values.
+constexpr int kRestartValues = 2 + kValues;
+/// Of the fix in a restart file: time of the fluid.
+constexpr int kStateVersion = 1;
 }  // namespace
 
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
@@ -59,7 +65,6 @@ FixHydrodynamicForce::~FixHydrodynamicForce() {
   atom->delete_callback(id, 0);
   atom->delete_callback(id, 1);
   memory->destroy(array_atom);
-  memory->destroy(history_);
 }
 
 int FixHydrodynamicForce::setmask() {
@@ -67,7 +72,18 @@ int FixHydrodynamicForce::setmask() {
 }
 
 void FixHydrodynamicForce::post_create() {
+  require_records_of_this_version();
   suffuse::act_before_constraints(lmp, this);
+}
+
+void FixHydrodynamicForce::require_records_of_this_version() {
+  int grains = 0;
+  MPI_Allreduce(&foreign_records_, &grains, 1, MPI_INT, MPI_SUM, world);
+  if (grains > 0)
+    throw_user_error({"fix hydrodynamic/force", "records in the restart file",
+                      "of another layout for " + std::to_string(grains) + " grains",
+                      "be of version " + std::to_string(suffuse::kGrainRecordVersion),
+                      "read the restart file with the version of suffuse that wrote it"});
 }
 
 void FixHydrodynamicForce::init() {
@@ -94,12 +110,12 @@ void FixHydrodynamicForce::finish_setup() {
 }
 
 FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
-  const double* history = history_[i];
-  const double mass = history[kVirtualMass], moment = history[kVirtualMoment];
+  const GrainRecord& record = records_[static_cast<std::size_t>(i)];
+  const double mass = record.virtual_mass, moment = record.virtual_moment;
   Addition ours;
   for (int a = 0; a < 3; ++a) {
-    ours.force[a] = array_atom[i][a] + mass * history[kAcceleration + a];
-    ours.torque[a] = array_atom[i][3 + a] + moment * history[kAngularAcceleration + a];
+    ours.force[a] = array_atom[i][a] + mass * record.acceleration[a];
+    ours.torque[a] = array_atom[i][3 + a] + moment * record.angular_acceleration[a];
   }
   const double radius = atom->radius[i], own = atom->rmass[i], own_moment = 0.4 * own * radius * radius;
   ours.force_share = own / (own + mass);
@@ -209,8 +225,8 @@ double* FixHydrodynamicForce::load() {
   return array_atom[0];
 }
 
-double* FixHydrodynamicForce::history() {
-  return history_[0];
+GrainRecord* FixHydrodynamicForce::records() {
+  return records_.data();
 }
 
 void FixHydrodynamicForce::set_fluid_time(double seconds, Fluid fluid) {
@@ -227,14 +243,11 @@ double FixHydrodynamicForce::compute_scalar() {
 
 void FixHydrodynamicForce::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  const double time = compute_scalar();
-  const int bytes = sizeof(time);
-  fwrite(&bytes, sizeof(bytes), 1, file);
-  fwrite(&time, sizeof(time), 1, file);
+  suffuse::write_record(file, {kStateVersion, "", {compute_scalar()}});
 }
 
 void FixHydrodynamicForce::restart(char* state) {
-  std::memcpy(&fluid_time_, state, sizeof(fluid_time_));
+  fluid_time_ = suffuse::read_record(state, kStateVersion, 1, "fix hydrodynamic/force").values[0];
 }
 
 /// Sum of the forces (1 to 3) and torques (4 to 6) on the grains of the group.
@@ -252,52 +265,57 @@ double FixHydrodynamicForce::memory_usage() {
 
 void FixHydrodynamicForce::grow_arrays(int nmax) {
   memory->grow(array_atom, nmax, static_cast<int>(kLoadValues), "hydrodynamic/force:load");
-  memory->grow(history_, nmax, static_cast<int>(kHistoryValues), "hydrodynamic/force:history");
+  records_.resize(static_cast<std::size_t>(nmax));
 }
 
 void FixHydrodynamicForce::copy_arrays(int from, int to, int) {
   std::copy_n(array_atom[from], kLoadValues, array_atom[to]);
-  std::copy_n(history_[from], kHistoryValues, history_[to]);
+  records_[static_cast<std::size_t>(to)] = records_[static_cast<std::size_t>(from)];
   stale_ = true;
 }
 
 void FixHydrodynamicForce::set_arrays(int i) {
   std::fill_n(array_atom[i], kLoadValues, 0.);
-  std::fill_n(history_[i], kHistoryValues, 0.);
+  records_[static_cast<std::size_t>(i)] = {};
   stale_ = true;
 }
 
 int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
   std::copy_n(array_atom[i], kLoadValues, buffer);
-  std::copy_n(history_[i], kHistoryValues, buffer + kLoadValues);
+  std::memcpy(buffer + kLoadValues, &records_[static_cast<std::size_t>(i)], sizeof(GrainRecord));
   return kValues;
 }
 
 int FixHydrodynamicForce::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, kLoadValues, array_atom[i]);
-  std::copy_n(buffer + kLoadValues, kHistoryValues, history_[i]);
+  std::memcpy(&records_[static_cast<std::size_t>(i)], buffer + kLoadValues, sizeof(GrainRecord));
   stale_ = true;
   return kValues;
 }
 
 int FixHydrodynamicForce::pack_restart(int i, double* buffer) {
-  buffer[0] = kValues + 1;
-  return 1 + pack_exchange(i, buffer + 1);
+  buffer[0] = kRestartValues;
+  buffer[1] = suffuse::kGrainRecordVersion;
+  return 2 + pack_exchange(i, buffer + 2);
 }
 
 void FixHydrodynamicForce::unpack_restart(int i, int nth) {
   double* values = atom->extra[i];
   for (int n = 0; n < nth; ++n) values += static_cast<int>(*values);
-  unpack_exchange(i, values + 1);
+  if (values[0] != kRestartValues || values[1] != suffuse::kGrainRecordVersion) {
+    ++foreign_records_;  // said in post_create, on all ranks alike
+    return;
+  }
+  unpack_exchange(i, values + 2);
   restored_ = true;
 }
 
 int FixHydrodynamicForce::size_restart(int) {
-  return kValues + 1;
+  return kRestartValues;
 }
 
 int FixHydrodynamicForce::maxsize_restart() {
-  return kValues + 1;
+  return kRestartValues;
 }
 
 int FixHydrodynamicForce::pack_comm(int n, int* list, double* buffer, int, int*) {

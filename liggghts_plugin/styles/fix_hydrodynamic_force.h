@@ -12,6 +12,7 @@ FixStyle(hydrodynamic/force, FixHydrodynamicForce)
 #include <vector>
 
 #include "fix.h"
+#include "kernels/grain_record.h"
 
 namespace LAMMPS_NS {
 
@@ -19,15 +20,12 @@ namespace LAMMPS_NS {
 /// them in every step until they are given anew. Reference page: docs/reference/fix_hydrodynamic_force.md.
 ///
 /// Values go with a grain when it changes rank and into restart files. Whoever computes the loads writes them
-/// with `load` and `history`, and calls `loads_changed` before the next step. Fixes of the script that set
+/// with `load` and `records`, and calls `loads_changed` before the next step. Fixes of the script that set
 /// forces (`freeze`, `setforce`, ...) act after it, whatever the order of their lines: what they hold stays
 /// held.
 class FixHydrodynamicForce : public Fix {
  public:
-  static constexpr int kLoadValues = 6;      ///< force (N), torque about the centre (N m)
-  static constexpr int kHistoryValues = 31;  ///< the coupling's memory of a grain (particle_port.h)
-  /// Places in that memory which this fix reads.
-  static constexpr int kAcceleration = 13, kAngularAcceleration = 16, kVirtualMass = 19, kVirtualMoment = 20;
+  static constexpr int kLoadValues = 6;  ///< force (N), torque about the centre (N m)
 
   FixHydrodynamicForce(LAMMPS* lmp, int narg, char** arg);
   ~FixHydrodynamicForce() override;
@@ -61,9 +59,9 @@ class FixHydrodynamicForce : public Fix {
   int pack_reverse_comm(int n, int first, double* buffer) override;
   void unpack_reverse_comm(int n, int* list, double* buffer) override;
 
-  /// Of owned grains, contiguous, kLoadValues and kHistoryValues a grain; valid until grains migrate.
+  /// Of owned grains, contiguous, kLoadValues and one record a grain; valid until grains migrate.
   double* load();
-  double* history();
+  suffuse::GrainRecord* records();
   /// Has a restart file given grains of this rank their values back?
   bool restored() const { return restored_; }
 
@@ -93,14 +91,16 @@ class FixHydrodynamicForce : public Fix {
   void refresh_additions();
   void change_constrained(int owned);
   void finish_setup();
+  void require_records_of_this_version();
 
-  double** history_ = nullptr;
+  std::vector<suffuse::GrainRecord> records_;
   std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
   bool stale_ = true;              // grains have changed places since then
   bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
-  double fluid_time_ = 0;  // s, at the step fluid_step_
+  int foreign_records_ = 0;  // of a restart file, that this version cannot read
+  double fluid_time_ = 0;    // s, at the step fluid_step_
   bigint fluid_step_ = 0;
   Fluid fluid_ = Fluid::rests;
   std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts

@@ -16,6 +16,7 @@
 #include "modify.h"
 #include "output.h"
 #include "pair_law.h"
+#include "restart_record.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
 #include "update.h"
@@ -39,7 +40,8 @@ constexpr double kStaticRayleighTimes = 20000 * 0.0994;
 /// Share of the target below which a sample with friction may be compressed faster: it remembers its way.
 constexpr double kFrictionalApproach = 0.01;
 constexpr int kSamplesPerWindow = 20;
-constexpr std::size_t kSignatureSize = 96;
+/// Of what pack() gives.
+constexpr int kStateVersion = 3;
 
 std::string who() {
   return "fix stress/servo";
@@ -114,6 +116,11 @@ void FixStressServo::init() {
   if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
   if (!arguments_.approach_given)
     arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
+  if (restored_ && restored_grains_[0] == grains_at_start_) {  // sums of the same grains in another order
+    density_ = restored_grains_[1];
+    solid_volume_ = restored_grains_[2];
+    diameter_ = restored_grains_[3];
+  }
   set_static_window();
 }
 
@@ -135,7 +142,7 @@ void FixStressServo::reset_dt() {
 
 void FixStressServo::setup(int) {
   sampler_->setup(0);
-  if (pressure_->invoked_vector != update->ntimestep) measure_stress();
+  measure_stress();
   measure_network();
   stop_step_ = -1;
   if (!restored_ && state_.reference_lengths.isZero()) {
@@ -347,10 +354,9 @@ void FixStressServo::report_progress() {
   std::fflush(screen);
 }
 
-/// Names the layout of the state, the path and its target: a restart file's state is taken up only by the fix
-/// that wrote it.
+/// Names the path and its target: a restart file's state is taken up only by the fix that wrote it.
 std::string FixStressServo::signature() const {
-  return fmt::format("2: {} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
+  return fmt::format("{} {:.9g} {} {:g} {:.9g} {:.9g}", static_cast<int>(arguments_.settings.path),
                      arguments_.settings.target, arguments_.settings.axis, arguments_.settings.direction,
                      arguments_.settings.deviator_low, arguments_.settings.deviator_high);
 }
@@ -361,12 +367,28 @@ std::vector<double> FixStressServo::pack() const {
        {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
     values.insert(values.end(), v.data(), v.data() + 3);
   const auto& w = static_window_;
-  for (const double value :
-       {state_.axial_ramp, state_.axial_direction, static_cast<double>(state_.reversals),
-        state_.peak_deviator, state_.strain_at_peak, static_cast<double>(state_.phase), w.start, w.stress_low,
-        w.stress_high, w.coordination_low, w.coordination_high, network_.coordination,
-        network_.bulk_stiffness, network_.unbalanced, network_.overlap, network_.grains,
-        state_.largest_stress, is_static_ ? 1.0 : 0.0})
+  for (const double value : {state_.axial_ramp,
+                             state_.axial_direction,
+                             static_cast<double>(state_.reversals),
+                             state_.peak_deviator,
+                             state_.strain_at_peak,
+                             static_cast<double>(state_.phase),
+                             w.start,
+                             w.stress_low,
+                             w.stress_high,
+                             w.coordination_low,
+                             w.coordination_high,
+                             network_.coordination,
+                             network_.bulk_stiffness,
+                             network_.unbalanced,
+                             network_.overlap,
+                             network_.grains,
+                             state_.largest_stress,
+                             is_static_ ? 1.0 : 0.0,
+                             grains_at_start_,
+                             density_,
+                             solid_volume_,
+                             diameter_})
     values.push_back(value);
   return values;
 }
@@ -389,31 +411,26 @@ void FixStressServo::unpack(const double* values) {
                         &network_.coordination, &network_.bulk_stiffness, &network_.unbalanced,
                         &network_.overlap, &network_.grains, &state_.largest_stress})
     *value = *values++;
-  is_static_ = *values != 0;
+  is_static_ = *values++ != 0;
+  std::copy_n(values, restored_grains_.size(), restored_grains_.begin());
 }
 
 void FixStressServo::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  std::string name = signature();
-  name.resize(kSignatureSize, '\0');
-  const std::vector<double> values = pack();
-  const int size = static_cast<int>(kSignatureSize + values.size() * sizeof(double));
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(name.data(), 1, kSignatureSize, file);
-  fwrite(values.data(), sizeof(double), values.size(), file);
+  suffuse::write_record(file, {kStateVersion, signature(), pack()});
 }
 
 void FixStressServo::restart(char* buffer) {
-  if (signature() != std::string(buffer, strnlen(buffer, kSignatureSize))) {
+  const suffuse::RestartRecord record =
+      suffuse::read_record(buffer, kStateVersion, pack().size(), fmt::format("fix stress/servo {}", id));
+  if (record.text != signature()) {
     if (comm->me == 0 && screen != nullptr)
       fmt::print(screen,
                  "fix stress/servo {}: the restart file holds another stress path; starting this one anew\n",
                  id);
     return;
   }
-  std::vector<double> values(pack().size());
-  std::memcpy(values.data(), buffer + kSignatureSize, values.size() * sizeof(double));
-  unpack(values.data());
+  unpack(record.values.data());
   if (state_.phase == servo::Phase::kDone) state_.phase = servo::Phase::kHolding;  // to an end further on
   restored_ = true;
 }

@@ -9,6 +9,7 @@ FixStyle(stress/servo, FixStressServo)
 #ifndef SUFFUSE_FIX_STRESS_SERVO_H
 #define SUFFUSE_FIX_STRESS_SERVO_H
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,7 @@ class FixStressServo : public Fix {
   double solid_volume_ = 0;
   bigint stop_step_ = -1;  // the run ends after this step
   bool restored_ = false;
+  std::array<double, 4> restored_grains_{};  // grains, density, volume and diameter of a restart file
   bool rate_note_given_ = false;
   FixContactSampler* sampler_ = nullptr;
   class Compute* pressure_ = nullptr;

@@ -150,10 +150,16 @@ void tell_box_of_few_grains(LAMMPS* lmp) {
 GrainCensus::GrainCensus(LAMMPS* lmp)
     : lmp_(lmp), grains_(over_ranks(lmp, lmp->atom->nlocal, MPI_SUM)), inserted_(inserted_so_far(lmp)) {}
 
-void GrainCensus::tell_lost() const {
+std::int64_t GrainCensus::lost() const {
   const std::int64_t now = over_ranks(lmp_, lmp_->atom->nlocal, MPI_SUM);
   const std::int64_t lost = grains_ + inserted_so_far(lmp_) - inserted_ - now;
-  if (lost <= 0 || some_fix_removes_grains(lmp_)) return;
+  return some_fix_removes_grains(lmp_) ? 0 : std::max<std::int64_t>(0, lost);
+}
+
+void GrainCensus::tell_lost() const {
+  const std::int64_t lost = this->lost();
+  const std::int64_t now = over_ranks(lmp_, lmp_->atom->nlocal, MPI_SUM);
+  if (lost == 0) return;
   tell(lmp_,
        fmt::format(
            "suffuse: note: {} left the box in this run and {} lost; {} {} left (`thermo_modify lost error` "

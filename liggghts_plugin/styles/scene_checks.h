@@ -29,6 +29,8 @@ class GrainCensus {
   explicit GrainCensus(LAMMPS_NS::LAMMPS* lmp);
   /// Nothing where none were lost, or where a fix of the script takes grains away on purpose. Collective.
   void tell_lost() const;
+  /// How many; 0 where a fix of the script takes grains away on purpose. Collective.
+  std::int64_t lost() const;
 
  private:
   LAMMPS_NS::LAMMPS* lmp_;

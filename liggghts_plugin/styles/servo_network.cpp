@@ -63,17 +63,17 @@ ServoNetwork measure_network(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixContactSample
 
 void require_sound_sample(const std::string& who, const ServoSample& sample) {
   if (!sample.stress_is_finite || !std::isfinite(sample.void_ratio))
-    throw_user_error({who, "sample", "without a finite stress", "keep its grains", kRemedy});
+    throw_lost_run({who, "sample", "without a finite stress", "keep its grains", kRemedy});
   if (sample.void_ratio < 0)
-    throw_user_error({who, "void ratio", fmt::format("{:.3g}", sample.void_ratio),
-                      "be >= 0: the sample is lost", kRemedy});
+    throw_lost_run({who, "void ratio", fmt::format("{:.3g}", sample.void_ratio),
+                    "be >= 0: the sample is lost", kRemedy});
   if (sample.network->grains < sample.grains_at_start)
-    throw_user_error({who, "grains", fmt::format("{:.0f}", sample.network->grains),
-                      fmt::format("be {:.0f} as at the start of the run", sample.grains_at_start), kRemedy});
+    throw_lost_run({who, "grains", fmt::format("{:.0f}", sample.network->grains),
+                    fmt::format("be {:.0f} as at the start of the run", sample.grains_at_start), kRemedy});
   if (sample.network->overlap > kAbsurdOverlap)
-    throw_user_error({who, "mean overlap of a contact",
-                      fmt::format("{:.2g} of a diameter", sample.network->overlap),
-                      fmt::format("be below {:g}: the sample is lost", kAbsurdOverlap), kRemedy});
+    throw_lost_run({who, "mean overlap of a contact",
+                    fmt::format("{:.2g} of a diameter", sample.network->overlap),
+                    fmt::format("be below {:g}: the sample is lost", kAbsurdOverlap), kRemedy});
 }
 
 }  // namespace suffuse

@@ -13,12 +13,13 @@ import random
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, columns, expect, scratch  # noqa: E402
+from scenes import Program, columns, expect, loose_sample, read_sample, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 RUN = "lbm boundary zlo pressure 0.5 zhi pressure 0\n"
@@ -86,7 +87,24 @@ def check_full_state(program, folder):
         take_up(program, folder, f"{place}/state.1")
         take_up(program, folder, f"{place}/state.2")
         fill(place, 0)
-        ends_with_a_sentence(program, start + f"write_restart {place}/dry\n", folder, "write_restart", ["is the disk full"])
+        ends_with_a_sentence(program, start + f"write_restart {place}/dry\n", folder, "write_restart", ["take what is written"])
+
+
+def check_full_dry(program, folder):
+    """The set of before stays, and can be taken up; what `write_restart` replaces stays, too."""
+    with small_disk(folder, 2) as place:
+        start = read_sample("sample")
+        program.must_run(start + f"restart_set {place}/state every 20\nrun 40\nwrite_restart {place}/alone\n", folder, "dry")
+        alone = (place / "alone").read_bytes()
+        for left in (0, 8, 16):
+            fill(place, left)
+            ends_with_a_sentence(program, start + f"restart_set {place}/state every 20\nrun 100000\n", folder, f"dry, {left} kB",
+                                 ["restart_set", "take what is written|have room for"])
+            ends_with_a_sentence(program, start + f"write_restart {place}/alone\n", folder, "write_restart", ["write_restart", "take what is written"])
+            (place / "ballast").unlink()
+            program.must_run(read_sample(f"{place}/state.grains") + "run 10\n", folder, "dry again")
+            expect((place / "alone").read_bytes() == alone, "write_restart has spoilt the file of before")
+            shutil.rmtree(place / "state.new", ignore_errors=True)
 
 
 def check_full_series(program, folder):
@@ -139,46 +157,136 @@ def check_damaged(program, folder):
     expect((folder / "taken").read_text() == "mine" and not os.path.isfile("/dev/null"), "a file is gone")
 
 
-def check_killed(program, folder, kills):
-    """Killed at random instants while it saves every few steps: the state under the name is whole and of one step. Those that
-    are taken up run on."""
+def check_foreign_records(program, folder):
+    """A fix's record of another version, of another length, or changed: one line, on all ranks, whoever has the grains."""
+    whole = (folder / "start").read_bytes()
+    mark = whole.index(b"suffuse\n")
+    grain = whole.index(struct.pack("<dd", 39, 1))  # the length of a grain's record, and its version
+    text = wet_box(restart="foreign") + "run 0\n"
+
+    def with_bytes(at, new):
+        changed = bytearray(whole)
+        changed[at:at + len(new)] = new
+        return bytes(changed)
+
+    for changed, words in ((with_bytes(mark, b"Suffuse\n"), ["without a version", "be of version 1"]),
+                           (with_bytes(mark + 8, struct.pack("<q", 7)), ["= version 7,", "be of version 1"]),
+                           (with_bytes(mark + 24, struct.pack("<q", 3)), ["3 values, not 1"]),
+                           (with_bytes(mark + 40, struct.pack("<d", 0.5)), ["damaged"]),
+                           (with_bytes(grain + 8, struct.pack("<d", 2)), ["of another layout for 1 grains", "be of version 1"])):
+        (folder / "foreign").write_bytes(changed)
+        ends_with_a_sentence(program, text, folder, "foreign", ["fix hydrodynamic/force: record", *words])
+    (folder / "foreign").write_bytes(whole)
+    program.must_run(text, folder, "own")
+
+
+def killed_scenes(program):
+    """Scenes by name: what begins, and what takes the state up and goes on, saving every few steps."""
     grid = f"{program.ranks} 1 1"
-    text = wet_box(processors=grid, restart="start") + WATER + RUN + "lbm restart write killed every 2e-5\nlbm run 1000\n"
-    (folder / "in.killed").write_text(text)
+
+    def coupled(state):
+        start = wet_box(processors=grid, restart="killed.grains" if state else "start") + WATER + RUN
+        return start + "lbm restart write killed every 2e-5\n" + ("lbm restart read killed\n" if state else "")
+
+    def dry(state):
+        scene = wet_box(processors=grid, restart="killed.grains" if state else "start")
+        return scene.replace("fix hydrodynamic_force all hydrodynamic/force\n", "") + "restart_set killed every 20\n"
+
+    def servo(state):
+        return read_sample("killed.grains" if state else "sample") + "fix s all stress/servo isotropic 100e3\nrestart_set killed every 20\n"
+
+    return {"coupled": (coupled, "lbm run {}\n", "1000", "1e-5"), "dry": (dry, "run {}\n", "1000000000", "10"),
+            "servo": (servo, "run {}\n", "1000000000", "10")}
+
+
+def check_killed(program, folder, kills, kind):
+    """Killed at random instants while it saves every few steps, and taken up by the next one: the state under the name is whole
+    and of one step, and what is taken up runs on."""
+    scene, run_line, for_ever, shortly = killed_scenes(program)[kind]
     seen, instants = set(), random.Random(1)
     for n in range(kills):
+        state = (folder / "killed").exists()
+        (folder / "in.killed").write_text(scene(state) + run_line.format(for_ever))
+        before = os.stat(folder / "killed").st_mtime_ns if state else 0
         run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.killed", "-log", "none", "-echo", "none"],
                                cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        before = os.stat(folder / "killed").st_mtime_ns if (folder / "killed").exists() else 0
         end = time.monotonic() + 60
         while time.monotonic() < end and (not (folder / "killed").exists() or os.stat(folder / "killed").st_mtime_ns == before):
             time.sleep(0.01)
         time.sleep(0.2 * instants.random())
         children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        expect(children, f"{kind}: the run ended by itself")
         for child in children:
             os.kill(int(child), signal.SIGKILL)
         run.wait(timeout=60)
-        look = wet_box(processors=grid, restart="killed.grains") + WATER + RUN + "lbm restart read killed\nlbm run 1e-5\n"
-        program.must_run(look, folder, "look")
+        if n % 10 == kills % 10 - 1 or n + 1 == kills:  # the next run takes it up, too
+            program.must_run(scene(True) + run_line.format(shortly), folder, "look")
+        expect((folder / "killed").exists(), f"{kind}: no state after kill {n}")
         seen.add(os.readlink(folder / "killed"))
     expect(kills < 8 or seen == {"killed.1", "killed.2"}, f"states of {seen} only")
+    for name in ("killed", "killed.grains"):
+        (folder / name).unlink()
+    for name in ("killed.1", "killed.2", "killed.new"):
+        shutil.rmtree(folder / name, ignore_errors=True)
+
+
+def check_killed_series(program, folder, kills):
+    """Killed while monitors and outputs are written, most of the time: the next run takes them up, and in the end rows and states are
+    those of a run without an end, none missing and none twice; every state can be read."""
+    grid = f"{program.ranks} 1 1"
+    interval, instants = 3.90625e-4, random.Random(2)  # five fluid steps
+    for n in range(kills + 1):
+        state = (folder / "series").exists()
+        text = wet_box(processors=grid, restart="series.grains" if state else "start") + WATER + RUN + \
+            f"lbm monitor m every {interval} file series.csv mass\nlbm output o every {interval} file series.h5 solid_fraction grains\n" \
+            f"lbm restart write series every {4 * interval}\n" + ("lbm restart read series\n" if state else "")
+        if n == kills:
+            program.must_run(text + f"lbm run {10 * interval}\n", folder, "series")
+            break
+        (folder / "in.series").write_text(text + "lbm run 1000\n")
+        run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.series", "-log", "none", "-echo", "none"],
+                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        before = os.stat(folder / "series").st_mtime_ns if state else 0
+        end = time.monotonic() + 60
+        while time.monotonic() < end and (not (folder / "series").exists() or os.stat(folder / "series").st_mtime_ns == before):
+            time.sleep(0.01)
+        time.sleep(0.2 * instants.random())
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        expect(children, "the run with outputs ended by itself")
+        for child in children:
+            os.kill(int(child), signal.SIGKILL)
+        run.wait(timeout=60)
+    times = columns(folder / "series.csv")["time_s"]
+    expect(all(abs(t - k * interval) < 1e-6 * interval for k, t in enumerate(times)), f"rows missing or twice: {times}")
+    look = "import h5py, sys\nf = h5py.File(sys.argv[1])\nprint(*[int(s[5:]) for s in sorted(f)])\nf.visititems(lambda n, a: (a[...], None)[1] if isinstance(a, h5py.Dataset) else None)"
+    for name in ("series.h5", "series_grains.h5"):
+        done = subprocess.run(["/usr/bin/python3", "-c", look, name], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+        expect(done.returncode == 0, f"{name}: {done.stdout[-300:]}")
+        steps = [int(word) for word in done.stdout.split()]
+        expect(steps == [5 * k for k in range(len(times))], f"{name}: states {steps}")
+        expect(not (folder / f"{name}.undo").exists(), f"{name}.undo is left")
 
 
 def main():
     arguments = sys.argv[1:]
     value = {name: arguments[arguments.index(name) + 1] for name in ("--suffuse", "--mpirun", "--ranks", "--kills") if name in arguments}
     program = Program(value["--suffuse"], value["--mpirun"], int(value["--ranks"]))
-    kills = int(value.get("--kills", 10))
+    kills = int(value.get("--kills", 4))
     with scratch() as scratch_folder:
         folder = pathlib.Path(scratch_folder)
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box(grains=6) + "write_restart start\n", folder)
+        Program(program.suffuse, program.mpirun, 1).must_run(loose_sample(grains=100) + "write_restart sample\n", folder)
         mounts = can_mount(folder)
         check_damaged(program, folder)
+        check_foreign_records(program, folder)
         if mounts:
             check_full_state(program, folder)
+            check_full_dry(program, folder)
             check_full_series(program, folder)
-        check_killed(program, folder, kills)
-    print(f"{program.ranks} ranks: whole after {kills} kills" + ("" if mounts else "; no full disk: mounting needs root"))
+        check_killed_series(program, folder, kills)
+        for kind in killed_scenes(program):
+            check_killed(program, folder, kills, kind)
+    print(f"{program.ranks} ranks: whole after {kills} kills each of runs with water, dry, and with a servo" + ("" if mounts else "; no full disk: mounting needs root"))
 
 
 if __name__ == "__main__":

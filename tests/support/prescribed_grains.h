@@ -28,7 +28,7 @@ class PrescribedGrains final : public ParticlePort {
                    double step, MPI_Comm communicator = MPI_COMM_WORLD)
       : box_(box), periodic_(periodic), step_(step), communicator_(communicator), list(std::move(grains)) {
     load_.assign(6 * list.size(), 0);
-    history_.assign(kHistoryLength * list.size(), 0);
+    records_.assign(list.size(), {});
     for (Grain& grain : list) grain.id = ++last_id_;
   }
 
@@ -36,15 +36,15 @@ class PrescribedGrains final : public ParticlePort {
     grain.id = ++last_id_;
     list.push_back(grain);
     load_.resize(6 * list.size(), 0);
-    history_.resize(kHistoryLength * list.size(), 0);
+    records_.resize(list.size());
   }
   void erase(std::size_t n) {
-    const auto cut = [n](std::vector<double>& values, int each) {
+    const auto cut = [n](auto& values, int each) {
       const auto from = values.begin() + static_cast<std::ptrdiff_t>(n) * each;
       values.erase(from, from + each);
     };
     cut(load_, 6);
-    cut(history_, kHistoryLength);
+    cut(records_, 1);
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
@@ -93,7 +93,7 @@ class PrescribedGrains final : public ParticlePort {
     }
   }
 
-  GrainMemory memory() override { return {load_.data(), history_.data()}; }
+  GrainMemory memory() override { return {load_.data(), records_.data()}; }
   bool reads_loads(int) override { return mobile; }
   double time_step() const override { return step_; }
 
@@ -104,10 +104,10 @@ class PrescribedGrains final : public ParticlePort {
       const double mass = g.density * sphere_volume(g.radius), inertia = 0.4 * mass * g.radius * g.radius;
       const double time = substeps * step_;
       if (free) {
-        const double* past = &history_[kHistoryLength * n];
-        const double added = past[history::virtual_mass], added_moment = past[history::virtual_moment];
-        const Vec3 before = Eigen::Map<const Vec3>(past + history::acceleration),
-                   turning_before = Eigen::Map<const Vec3>(past + history::angular_acceleration);
+        const GrainRecord& past = records_[n];
+        const double added = past.virtual_mass, added_moment = past.virtual_moment;
+        const Vec3 before = Eigen::Map<const Vec3>(past.acceleration),
+                   turning_before = Eigen::Map<const Vec3>(past.angular_acceleration);
         const Vec3 acceleration = (force_on(n) + mass * gravity + added * before) / (mass + added);
         const Vec3 turning = (torque_on(n) + added_moment * turning_before) / (inertia + added_moment);
         g.position += time * (g.velocity + 0.5 * time * acceleration);
@@ -124,7 +124,7 @@ class PrescribedGrains final : public ParticlePort {
 
   Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n); }
   Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n + 3); }
-  double virtual_mass_of(std::size_t n) const { return history_[kHistoryLength * n + history::virtual_mass]; }
+  double virtual_mass_of(std::size_t n) const { return records_[n].virtual_mass; }
 
  private:
   void add(std::size_t n, const Vec3& position) {
@@ -145,7 +145,8 @@ class PrescribedGrains final : public ParticlePort {
   double step_;
   MPI_Comm communicator_;
   int last_id_ = 0;
-  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_, history_;
+  std::vector<double> position_, velocity_, spin_, radius_, mass_, load_;
+  std::vector<GrainRecord> records_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;
 

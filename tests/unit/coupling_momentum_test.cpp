@@ -38,19 +38,16 @@ Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grain
   const lbm::Units& units = simulation.units();
   const double cell = units.density() * std::pow(units.spacing(), 3);
   Vec3 sum = cell * units.velocity_to_si(simulation.fluid().momentum());
-  const double* memory = grains.memory().history;
+  const GrainRecord* records = grains.memory().record;
   for (std::size_t n = 0; n < grains.list.size(); ++n) {
     const auto& g = grains.list[n];
-    const auto past = [&](int place) {
-      return Vec3(Eigen::Map<const Vec3>(memory + kHistoryLength * n + place));
-    };
-    const Vec3 held =
-        sphere_volume(g.radius) * units.density() * past(history::velocity) + past(history::lead);
+    const GrainRecord& record = records[n];
+    const auto past = [](const double* values) { return Vec3(Eigen::Map<const Vec3>(values)); };
+    const Vec3 held = sphere_volume(g.radius) * units.density() * past(record.velocity) + past(record.lead);
     sum += sphere_volume(g.radius) * g.density * g.velocity - held;
-    const Vec3 change = g.velocity - past(history::velocity),
-               before = units.time_step() * past(history::acceleration);
-    sum +=
-        memory[kHistoryLength * n + history::virtual_mass] * (before / kPredictionRate + (change - before));
+    const Vec3 change = g.velocity - past(record.velocity),
+               before = units.time_step() * past(record.acceleration);
+    sum += record.virtual_mass * (before / kPredictionRate + (change - before));
   }
   return sum;
 }

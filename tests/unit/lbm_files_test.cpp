@@ -1,6 +1,7 @@
 // Checkpoints and field files, written on some ranks and read on others.
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "lbm_test_tools.h"
 #include "suffuse/common/collective_text.h"
@@ -170,4 +171,49 @@ TEST_CASE("fields are written in SI, and a series that is continued keeps what c
     CHECK(solid[cell] == (second.is_solid({x, y, z}) ? 1.f : 0.f));
     ++cell;
   });
+}
+
+TEST_CASE(
+    "a series whose writer was killed holds the states of before, whatever was written over its tables") {
+  const std::string path = (folder() / "killed.h5").string();
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const ArrayPart part{{6}, {0}, {rank == 0 ? std::size_t{6} : 0}};
+  const std::vector<double> values =
+      rank == 0 ? std::vector<double>{1, 2, 3, 4, 5, 6} : std::vector<double>{};
+  const auto add_state = [&](Hdf5File& file, const std::string& name) {
+    file.create_group("/" + name);
+    file.create_array<double>("/" + name + "/a", {6});
+    file.write("/" + name + "/a", part, values);
+  };
+  const auto states = [&] {
+    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    const std::vector<std::string> names = file.names_in("/");
+    for (const std::string& name : names) CHECK(file.read<double>("/" + name + "/a", part) == values);
+    file.close();
+    return names;
+  };
+  {
+    Hdf5File file(path, Hdf5File::Mode::create, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    add_state(file, "step_1");
+    file.close();
+  }
+  {
+    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    add_state(file, "step_2");
+    if (rank == 0) std::filesystem::copy_file(path + ".undo", path + ".kept");
+    MPI_Barrier(MPI_COMM_WORLD);
+    file.close();
+  }
+  CHECK(states() == std::vector<std::string>{"step_1", "step_2"});
+  MPI_Barrier(MPI_COMM_WORLD);  // the first rank drops the note
+  CHECK_FALSE(std::filesystem::exists(path + ".undo"));
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (rank == 0) {
+    std::filesystem::rename(path + ".kept", path + ".undo");
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);  // what HDF5 begins with
+    file.write(std::string(64, 'x').data(), 64);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  CHECK(states() == std::vector<std::string>{"step_1"});
 }

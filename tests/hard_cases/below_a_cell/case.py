@@ -41,7 +41,7 @@ lbm run 0.06
 """
     code, screen = bench.run(scene(bench, water, grains, after, periodic="ppf"))
     if code != 0:
-        bench.expect(preset == "thesis" and code == 1 and "suffuse: error:" in screen, f"tau {tau}: code {code}\n{screen[-1500:]}")
+        bench.expect(preset == "thesis" and code == 4 and "suffuse: error:" in screen, f"tau {tau}: code {code}\n{screen[-1500:]}")
         return None
     flow = bench.series()
     return max(flow["fines_m_per_s"]) / max(flow["large_m_per_s"])

@@ -19,5 +19,5 @@ def run(bench, preset, full):
             bench.expect(code == 0 and -speed < last_dump(bench.folder / "grains.dump")["vz"][0] < 0, screen[-1500:])
         else:
             lines = [line for line in screen.splitlines() if line.startswith("suffuse: error:")]
-            bench.expect(code == 1 and len(lines) == 1 and "timestep" in lines[0], f"{ranks} ranks: code {code}, {lines}")
+            bench.expect(code == 4 and len(lines) == 1 and "timestep" in lines[0], f"{ranks} ranks: code {code}, {lines}")
     return "stopped with the time step to take; at a tenth of it the run ends"

@@ -29,6 +29,17 @@ struct InputProblem {
 /// Formats an InputProblem as one line and throws it as UserError.
 [[noreturn]] void throw_user_error(const InputProblem& problem);
 
+/// A run that has left what its method can do: not what was written, but what came of it. Thrown on every
+/// rank alike; programs end with an exit code of its own (docs/reference/exit_codes.md).
+class LostRun : public UserError {
+ public:
+  using UserError::UserError;
+};
+inline constexpr int kLostRunExitCode = 4;
+
+/// The same line as a LostRun.
+[[noreturn]] void throw_lost_run(const InputProblem& problem);
+
 /// What the machine refused, as one line: a file's name too long, a loop of links, a folder that has
 /// vanished, a full disk, memory that there is not. Empty for anything else, which is the program's own
 /// mistake.

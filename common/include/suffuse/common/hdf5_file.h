@@ -24,7 +24,12 @@ class Hdf5File {
  public:
   enum class Mode { create, append, read };  ///< `append` creates the file if there is none
 
-  Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator);
+  /// With `noted` a file that grows state by state stays one that can be opened whenever its writer is
+  /// killed: the next one that is to write it finds PATH.undo, and takes back what was half written
+  /// (hdf5_undo.h).
+  enum class Growth { plain, noted };
+
+  Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Growth growth = Growth::plain);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;

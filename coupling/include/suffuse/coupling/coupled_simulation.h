@@ -49,6 +49,9 @@ class CoupledSimulation {
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
   void map();
 
+  /// As `map`, as if no grain had been mapped before: what a simulation does that takes a saved state up.
+  void map_anew();
+
   /// Brings the loads in the port's memory up to date where `step` left them because nothing moves the
   /// grains. The same values however often this is called if the steps before were told (`loads_asked_for`);
   /// otherwise rates of change are means over the time since the last loads. Collective.
@@ -64,6 +67,8 @@ class CoupledSimulation {
   const CoupledSettings& settings() const { return settings_; }
   const SolidMapping& mapping() const { return mapping_; }
   const Vec3& origin() const { return origin_; }
+  /// This rank's spheres as they were last read, copies included, in lattice units.
+  const std::vector<LatticeSphere>& spheres() const { return spheres_; }
   ParticlePort& grains() { return grains_; }
 
   /// DEM steps a fluid step.

@@ -3,23 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace suffuse::coupling {
+#include "kernels/grain_record.h"
 
-/// Places in a grain's history: what the last fluid step saw and gave.
-namespace history {
-inline constexpr int velocity = 0, angular_velocity = 3;     ///< m/s, rad/s
-inline constexpr int surface_force = 6, surface_torque = 9;  ///< N, N m
-inline constexpr int known = 12;                             ///< 1 once there was such a step
-/// Over the fluid steps before (their running mean), m/s^2 and rad/s^2; and the virtual inertia that is to
-/// move with it on both sides of the equations of motion, kg and kg m^2 (virtual_mass.h). Whoever integrates
-/// applies these.
-inline constexpr int acceleration = 13, angular_acceleration = 16;
-inline constexpr int virtual_mass = 19, virtual_moment = 20;
-inline constexpr int lead = 21, spin_lead = 24;  ///< of the fluid that it holds: kg m/s, kg m^2/s
-/// 1 once the pores around the grain were surveyed for automatic coefficients; where it was then, m.
-inline constexpr int surveyed = 27, surveyed_at = 28;
-}  // namespace history
-inline constexpr int kHistoryLength = 31;
+namespace suffuse::coupling {
 
 /// The spheres that one rank knows, in SI: those it owns first, then copies of others' (ghosts, periodic
 /// images among them), which are where the image is. Vectors are x y z, one grain after the other.
@@ -38,7 +24,7 @@ struct GrainArrays {
 struct GrainMemory {
   double* load = nullptr;  ///< 6 per grain, applied in every DEM step until the next fluid step: force (N),
                            ///< torque about the centre (N m)
-  double* history = nullptr;  ///< kHistoryLength per grain, in the order of `history`
+  GrainRecord* record = nullptr;  ///< one per grain
 };
 
 /// What the coupling asks of a discrete-element code.

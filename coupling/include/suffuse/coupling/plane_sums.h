@@ -20,7 +20,7 @@ struct PlaneSums {
   double fluid_mass = 0;           ///< in the open part of all planes, kg
   double stored_mass = 0;  ///< of all populations, those in grains included, beyond rest, kg: conserved
   double fluid_kinetic_energy = 0;  ///< of the open part, J
-  lbm::FluidExtremes extremes;      ///< of all cells, lattice units; whether they are finite is not looked at
+  lbm::FluidExtremes extremes;      ///< of all cells, lattice units, as Fluid::extremes gives them
 
   std::size_t planes() const { return flux.size(); }
 

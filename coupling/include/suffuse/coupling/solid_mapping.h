@@ -30,6 +30,8 @@ class SolidMapping {
   /// Where the spheres are now. Returns how many of them moved (all of them after one came, went or changed
   /// its place in the list). Cells are not written yet.
   std::size_t place(const std::vector<LatticeSphere>& spheres);
+  /// The next `place` takes all spheres for new ones.
+  void forget() { placed_.clear(); }
 
   /// What the pores add to the spheres' coefficients in each cell, laid out as the fractions; null: nothing.
   /// With own_coefficients only. All cells wait to be written then.

@@ -38,7 +38,8 @@ struct FluidPoint {
 struct FluidExtremes {
   double largest_speed = 0;
   double smallest_density = 1, largest_density = 1;
-  bool finite = true;  ///< false as soon as one cell holds a NaN or an infinity
+  bool finite = true;      ///< false as soon as one cell holds a NaN or an infinity
+  double stored_mass = 0;  ///< of all cells, those in grains included, beyond rest: conserved in a closed box
 };
 
 class FluidCoreBase;
