@@ -2,7 +2,6 @@
 # figure scripts and the Python module to share/suffuse/, documentation and licence to share/doc/suffuse/, manual pages and
 # completion where there are any; component Development: libraries and headers for find_package(Suffuse).
 include(CMakePackageConfigHelpers)
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME Runtime)
 set(suffuse_share ${CMAKE_INSTALL_DATADIR}/suffuse)
 install(PROGRAMS scripts/mpirun DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME suffuse-mpirun)
 install(DIRECTORY input_scripts/ DESTINATION ${suffuse_share}/input_scripts PATTERN CMakeLists.txt EXCLUDE)
