@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""python_module.py --suffuse PROGRAM --module FOLDER [--pvpython PROGRAM]
+"""python_module.py --suffuse PROGRAM --module FOLDER [--pvpython PROGRAM [--picture SCRIPT]]
 
 A small wet run read by suffuse_data: monitor, dump, grains, contacts and fields agree with each other, with their units and the
 run's script; eroded mass by size class is what the dumps say; ParaView reads the contacts as lines beside the grains."""
@@ -7,6 +7,7 @@ import argparse
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -98,6 +99,7 @@ def main():
     parser.add_argument("--suffuse", required=True)
     parser.add_argument("--module", required=True)
     parser.add_argument("--pvpython")
+    parser.add_argument("--picture", help="the script of ParaView's picture; drawn where xvfb-run gives it a display")
     options = parser.parse_args()
     sys.dont_write_bytecode = True
     sys.path.insert(0, options.module)
@@ -112,6 +114,9 @@ def main():
         if options.pvpython:
             reader = pathlib.Path(__file__).with_name("contacts_in_paraview.py")
             subprocess.run([options.pvpython, reader, folder / "bed_contacts.xdmf", str(contacts)], check=True)
+        if options.picture and shutil.which("xvfb-run") and shutil.which("pvbatch"):
+            done = subprocess.run(["xvfb-run", "-a", "pvbatch", options.picture, folder / "bed.xdmf", "--output", folder / "p.png"], capture_output=True, text=True)
+            expect(done.returncode == 0 and (folder / "p.png").stat().st_size > 5000 and "ERR" not in done.stdout + done.stderr, f"picture: {done.stdout}{done.stderr}")
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ struct GrainSnapshot {
 ///   coefficient; friction_limit and spring_force (N), what the contact law caps its tangential spring with
 ///   and the spring's force, for `suffuse-analyse` to tell which contacts slide; normal_force (N, compression
 ///   positive); ends (m), the two centres, and lines, their numbers, which the file *_contacts.xdmf shows in
-///   ParaView as lines beside the grains (filter Tube, radius by `normal_force`).
+///   ParaView as lines beside the grains (filters Extract Surface and Tube).
 ///
 /// Arrays have an attribute `units`, the root suffuse_version and script.
 ///
