@@ -114,6 +114,7 @@ void ScriptVariables::note_choices(const std::string& name, const std::vector<st
   if (!std::regex_match(name, found, one_variable)) return;
   const auto before = static_cast<std::size_t>(found[1].length()),
              after = static_cast<std::size_t>(found[3].length());
+  included_as_.emplace(found[2], name);
   std::vector<std::string>& choices = choices_[found[2]];
   for (const std::string& file : fitting) {
     const std::string there = files::path(file).filename().string();
@@ -149,6 +150,12 @@ void ScriptVariables::require_choice(const std::string& name, const std::string&
                                      const std::string& who) const {
   const auto found = choices_.find(name);
   if (found == choices_.end() || found->second.empty() || contains(found->second, value)) return;
+  // A file that the script names outside of its include lines may be one that it makes.
+  std::istringstream lines(text_);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("include") && !line.starts_with('#') &&
+        line.find(included_as_.at(name)) != line.npos)
+      return;
   throw_user_error({who, name, value, fmt::format("be one of {}", fmt::join(found->second, ", ")),
                     "each is a file beside " + files::path(script_).filename().string()});
 }

@@ -23,7 +23,8 @@ class ScriptVariables {
   /// included was found: -var would change nothing. Names the nearest of those that -var can set.
   void require_known(const std::string& name, const std::string& who) const;
   /// Throws UserError where the variable's value is part of the name of an included file of the script's own
-  /// folders (`include ${script_folder}/scale_${scale}.inc`) and no such file is there; names those that are.
+  /// folders (`include ${script_folder}/scale_${scale}.inc`) and no such file is there, nor made by the
+  /// script; names those that are.
   void require_choice(const std::string& name, const std::string& value, const std::string& who) const;
   /// Of the script and all that it includes: changes where any of them does (FNV-1a, 16 hexadecimal digits).
   std::string fingerprint() const;
@@ -40,6 +41,7 @@ class ScriptVariables {
   std::vector<std::string> files_, settable_, set_by_script_;
   std::map<std::string, std::string> values_;                ///< of variables in folders' names
   std::map<std::string, std::vector<std::string>> choices_;  ///< of variables in files' names
+  std::map<std::string, std::string> included_as_;           ///< such a file's name, variable and all
   bool all_found_ = true;  ///< no file is included from a folder that is not known
 };
 
