@@ -1,5 +1,6 @@
 # suffuse_library(NAME common SOURCES ... [PUBLIC_LINKS ...] [PRIVATE_LINKS ...])
 # A static library `suffuse_NAME` with the alias `suffuse::NAME`, our warnings and the include folder `include/`.
+# suffuse_export(NAME common [HEADERS FOLDER ...]): installs it and its headers for find_package(Suffuse).
 
 function(suffuse_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -23,7 +24,22 @@ function(suffuse_library)
   cmake_parse_arguments(ARG "" "NAME" "SOURCES;PUBLIC_LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(suffuse_${ARG_NAME} STATIC ${ARG_SOURCES})
   add_library(suffuse::${ARG_NAME} ALIAS suffuse_${ARG_NAME})
-  target_include_directories(suffuse_${ARG_NAME} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR}/include)
+  target_include_directories(suffuse_${ARG_NAME} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
   target_link_libraries(suffuse_${ARG_NAME} PUBLIC ${ARG_PUBLIC_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
   suffuse_compile_options(suffuse_${ARG_NAME})
+endfunction()
+
+# HEADERS: folders whose headers others include by the folder's name, besides those of include/.
+function(suffuse_export)
+  cmake_parse_arguments(ARG "" "NAME" "HEADERS" ${ARGN})
+  set(folder ${CMAKE_INSTALL_INCLUDEDIR}/suffuse-${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set_target_properties(suffuse_${ARG_NAME} PROPERTIES EXPORT_NAME ${ARG_NAME})
+  target_include_directories(suffuse_${ARG_NAME} INTERFACE $<INSTALL_INTERFACE:${folder}>)
+  install(TARGETS suffuse_${ARG_NAME} EXPORT SuffuseTargets DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    install(DIRECTORY include/ DESTINATION ${folder} COMPONENT Development)
+  endif()
+  foreach(header ${ARG_HEADERS})
+    install(DIRECTORY ${header} DESTINATION ${folder} COMPONENT Development FILES_MATCHING PATTERN "*.h")
+  endforeach()
 endfunction()

@@ -24,6 +24,8 @@
 #include "styles/all_styles.h"
 #include "styles/early_stop.h"
 #include "styles/scene_checks.h"
+#include "suffuse/common/error.h"
+#include "suffuse/common/near_word.h"
 
 namespace {
 
@@ -136,6 +138,19 @@ void install_grain_loop(LAMMPS* lmp) {
   (*(lmp->modify->*member_of(FixMap{})))["nve/sphere"] = &make_fix<FixNVESphereVector>;
 }
 
+/// A UserError for a style that is not in the map, which names the one that was meant.
+template <class Map>
+void require_style(const Map* styles, const char* kind, char** arg, const char* suffix) {
+  const std::string name = arg[2];
+  if (styles->contains(name) || (suffix != nullptr && styles->contains(name + "/" + suffix))) return;
+  if (name.starts_with("mesh/surface")) return;  // LIGGGHTS makes one kind of them all
+  std::vector<std::string> names;
+  for (const auto& [known, creator] : *styles) names.push_back(known);
+  const std::string meant = suffuse::did_you_mean(name, names);
+  suffuse::throw_user_error({std::string(kind) + " " + arg[0], "style", name, "be one that there is",
+                             (meant.empty() ? "" : meant + " ") + "`suffuse --styles` lists ours"});
+}
+
 }  // namespace
 
 /// The script's `clear` makes all of LIGGGHTS's parts anew, and would forget ours. It is no virtual function;
@@ -146,6 +161,18 @@ void LAMMPS_NS::Input::clear() {
   lmp->create();
   lmp->post_create();
   suffuse::register_styles(lmp, loop_in_use);
+}
+
+/// The script's `fix` and `compute`, as the library has them, after a look at the style's name: LIGGGHTS's
+/// own refusal names no other. No virtual functions either.
+void LAMMPS_NS::Input::fix() {
+  if (narg > 2) require_style(modify->*member_of(FixMap{}), "fix", arg, lmp->suffix);
+  modify->add_fix(narg, arg, lmp->suffix);
+}
+
+void LAMMPS_NS::Input::compute() {
+  if (narg > 2) require_style(modify->*member_of(ComputeMap{}), "compute", arg, lmp->suffix);
+  modify->add_compute(narg, arg, lmp->suffix);
 }
 
 namespace suffuse {

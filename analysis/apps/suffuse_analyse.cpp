@@ -17,6 +17,7 @@
 #include "commands/sample_command.h"
 #include "commands/shear_command.h"
 #include "commands/verdict_command.h"
+#include "suffuse/common/command_line_help.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -77,7 +78,7 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
-    return report(fmt::format("{}; see --help", problem.what()).c_str());
+    return report(suffuse::explain(app, problem).c_str());
   } catch (const suffuse::UserError& problem) {
     return report(problem.what());
   } catch (const std::exception& failure) {

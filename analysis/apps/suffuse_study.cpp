@@ -9,6 +9,7 @@
 
 #include "suffuse/analysis/study_file.h"
 #include "suffuse/analysis/study_runner.h"
+#include "suffuse/common/command_line_help.h"
 #include "suffuse/common/error.h"
 
 namespace {
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
     return code;
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == 0) return app.exit(problem);  // --help, --version
-    return report(fmt::format("{}; see --help", problem.what()));
+    return report(suffuse::explain(app, problem));
   } catch (const suffuse::UserError& problem) {
     return report(problem.what());
   } catch (const std::exception& failure) {

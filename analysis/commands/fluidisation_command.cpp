@@ -169,6 +169,13 @@ std::pair<double, double> onset_gradient(const Run& run) {
   return {onset.last_at_rest + step, step};
 }
 
+/// Appendix C's soil, by its Sauter size: what the thesis found holds for no other.
+bool is_soil_of_thesis(const Options& options) {
+  if (options.grading.empty()) return false;
+  constexpr double sauter = 3.478e-4;  // m
+  return std::abs(grading_indices(grading_of_file(options.grading, kWho)).sauter / sauter - 1) < 0.02;
+}
+
 void add_critical_gradients(ResultRows& rows, const Run& run, const Options& options) {
   const Fluidisation& result = run.result;
   rows.add("critical gradient, Terzaghi", "i_cr", run.terzaghi, "-", "terzaghi1943",
@@ -196,6 +203,7 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
     rows.add("critical gradient, bed begins to move", "i_cr", std::nullopt, "-", "rise of the centre",
              fmt::format("not reached; largest gradient {:.3f}", result.largest_gradient));
   }
+  if (!is_soil_of_thesis(options)) return;
   rows.add("critical gradient, thesis, LBM-DEM", "i_cr", 1.050, "-", "haq, section 6.4",
            "porosity not printed");
   rows.add("critical gradient, thesis, semi-analytical", "i_cr", 1.133, "-", "haq, section 6.4",

@@ -7,7 +7,11 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <system_error>
+#include <vector>
+
+#include "suffuse/common/near_word.h"
 
 namespace suffuse {
 
@@ -23,10 +27,26 @@ std::string shown(const std::string& text) {
   return text.size() > most ? line + "..." : line;
 }
 
+/// The words of a rule `be one of: a, b c or d`; none for other rules.
+std::vector<std::string> words_of_rule(std::string rule) {
+  constexpr std::string_view begin = "be one of";
+  if (!rule.starts_with(begin)) return {};
+  for (char& c : rule)
+    if (c == ',' || c == ':') c = ' ';
+  std::istringstream text(rule.substr(begin.size()));
+  std::vector<std::string> words;
+  for (std::string word; text >> word;) words.push_back(word);
+  return words;
+}
+
 std::string line_of(const InputProblem& problem) {
   std::string line =
       fmt::format("{}: {} = {}, must {}", problem.who, problem.what, shown(problem.value), problem.rule);
-  if (!problem.remedy.empty()) line += "; " + problem.remedy;
+  // "unknown" is the value where the word itself is what is wrong.
+  const std::string& word = problem.value == "unknown" ? problem.what : problem.value;
+  const std::string meant = did_you_mean(word, words_of_rule(problem.rule));
+  if (!meant.empty()) line += "; " + meant;
+  if (!problem.remedy.empty()) line += (meant.empty() ? "; " : " ") + problem.remedy;
   return line;
 }
 

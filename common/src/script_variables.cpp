@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/near_word.h"
 
 namespace suffuse {
 namespace {
@@ -27,6 +28,12 @@ bool contains(const std::vector<std::string>& list, const std::string& text) {
 
 void add(std::vector<std::string>& list, const std::string& text) {
   if (!contains(list, text)) list.push_back(text);
+}
+
+/// What a script has instead of a name that it has not; the one that was meant first.
+std::string known_for(const std::string& name, const std::vector<std::string>& settable) {
+  const std::string meant = did_you_mean(name, settable);
+  return fmt::format("{}{}it has {}", meant, meant.empty() ? "" : " ", fmt::join(settable, ", "));
 }
 
 /// A file's name with variables in it as a pattern: each stands for any text.
@@ -72,7 +79,7 @@ void ScriptVariables::read(const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     note_definition(line.substr(0, line.find('#')));
     for (std::sregex_iterator found(line.begin(), line.end(), other_file), end; found != end; ++found)
-      if ((*found)[1] != "SELF") include((*found)[1]);
+      if ((*found)[1] != "SELF") include((*found)[1], line.starts_with("include"));
   }
 }
 
@@ -85,7 +92,7 @@ void ScriptVariables::note_definition(const std::string& line) {
   if (kept || found[2] != "delete") add(kept ? settable_ : set_by_script_, found[1]);
 }
 
-void ScriptVariables::include(const std::string& words) {
+void ScriptVariables::include(const std::string& words, bool always) {
   const files::path path(words);
   const files::path folder = folder_of(path.parent_path().string());
   if (folder.string().find('$') != std::string::npos) all_found_ = false;
@@ -96,7 +103,23 @@ void ScriptVariables::include(const std::string& words) {
     if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), pattern))
       fitting.push_back(entry.path().string());
   std::sort(fitting.begin(), fitting.end());
+  if (always && words.starts_with("${script_folder}")) note_choices(path.filename().string(), fitting);
   for (const std::string& file : fitting) read(file);
+}
+
+/// A file's name with one variable in it offers what stands in its place in the names of the files there.
+void ScriptVariables::note_choices(const std::string& name, const std::vector<std::string>& fitting) {
+  static const std::regex one_variable(R"(([^$]*)\$\{(\w+)\}([^$]*))");
+  std::smatch found;
+  if (!std::regex_match(name, found, one_variable)) return;
+  const auto before = static_cast<std::size_t>(found[1].length()),
+             after = static_cast<std::size_t>(found[3].length());
+  included_as_.emplace(found[2], name);
+  std::vector<std::string>& choices = choices_[found[2]];
+  for (const std::string& file : fitting) {
+    const std::string there = files::path(file).filename().string();
+    add(choices, there.substr(before, there.size() - before - after));
+  }
 }
 
 std::string ScriptVariables::folder_of(const std::string& name) const {
@@ -120,7 +143,21 @@ void ScriptVariables::require_known(const std::string& name, const std::string& 
   if (!all_found_ || uses(name)) return;
   throw_user_error({who, "variable", name,
                     "be used by " + files::path(script_).filename().string() + " or a file that it includes",
-                    fmt::format("it has {}", fmt::join(settable_, ", "))});
+                    known_for(name, settable_)});
+}
+
+void ScriptVariables::require_choice(const std::string& name, const std::string& value,
+                                     const std::string& who) const {
+  const auto found = choices_.find(name);
+  if (found == choices_.end() || found->second.empty() || contains(found->second, value)) return;
+  // A file that the script names outside of its include lines may be one that it makes.
+  std::istringstream lines(text_);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("include") && !line.starts_with('#') &&
+        line.find(included_as_.at(name)) != line.npos)
+      return;
+  throw_user_error({who, name, value, fmt::format("be one of {}", fmt::join(found->second, ", ")),
+                    "each is a file beside " + files::path(script_).filename().string()});
 }
 
 void ScriptVariables::require(const std::string& name, const std::string& who) const {
@@ -131,8 +168,7 @@ void ScriptVariables::require(const std::string& name, const std::string& who) c
         {who, "variable", name, "be one that -var can set",
          fmt::format("{} sets it itself; make that line `variable {} index VALUE`", script, name)});
   if (!uses(name))
-    throw_user_error({who, "variable", name, "be used by " + script,
-                      fmt::format("it has {}", fmt::join(settable_, ", "))});
+    throw_user_error({who, "variable", name, "be used by " + script, known_for(name, settable_)});
 }
 
 std::string ScriptVariables::fingerprint() const {

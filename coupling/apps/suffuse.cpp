@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 #include <mpi.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <map>
 #include <new>
 #include <string>
 #include <vector>
 
 #include "../commands/interruption.h"
 #include "../commands/lbm_command.h"
+#include "command_line.h"
 #include "error.h"
 #include "input.h"
 #include "lammps.h"
@@ -23,7 +22,7 @@
 #include "suffuse/common/end_together.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
-#include "suffuse/common/script_variables.h"
+#include "suffuse/common/provenance.h"
 
 /// LIGGGHTS ends by this on its own errors, and what it said would be lost where screen and log are files
 /// that have not been flushed yet.
@@ -50,7 +49,7 @@ LIGGGHTS options pass through, among them:
 Our own:
   --help              this text
   --version           the version
-  --styles            the fixes, computes and commands that suffuse adds
+  --styles            the fixes, computes and commands that suffuse adds, each with its page
 )";
 
 bool given(int argc, char** argv, const char* option) {
@@ -71,34 +70,10 @@ bool answered_without_a_script(int argc, char** argv) {
     return true;
   }
   if (given(argc, argv, "--styles")) {
-    for (const std::string& name : suffuse::registered_styles()) fmt::print("{}\n", name);
-    fmt::print("command lbm\ncommand restart_set\n");
+    std::fputs(suffuse::styles_text().c_str(), stdout);
     return true;
   }
   return false;
-}
-
-const char* script_name(int argc, char** argv) {
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], "-in") == 0 || std::strcmp(argv[i], "-i") == 0) return argv[i + 1];
-  return nullptr;
-}
-
-/// Refuses a `-var NAME VALUE` whose name stands nowhere in the script, most likely misspelt: it would change
-/// nothing. Says where a second value of one name does not count.
-void require_known_variables(int argc, char** argv, const char* script) {
-  std::map<std::string, std::string> given;
-  for (int i = 1; i + 2 < argc; ++i) {
-    if (std::strcmp(argv[i], "-var") != 0 && std::strcmp(argv[i], "-v") != 0) continue;
-    const auto [first, is_new] = given.emplace(argv[i + 1], argv[i + 2]);
-    if (!is_new && first->second != argv[i + 2])
-      fmt::print(stderr, "suffuse: note: -var {} is given twice: {} counts, {} does not\n", first->first,
-                 first->second, argv[i + 2]);
-    i += 2;
-  }
-  if (script == nullptr || given.empty()) return;
-  const suffuse::ScriptVariables variables(script, "suffuse", given);
-  for (const auto& [name, value] : given) variables.require_known(name, "suffuse -var");
 }
 
 /// Lets a script find files beside it, and the programs beside this one: ${script_folder} is the folder of
@@ -141,20 +116,6 @@ suffuse::GrainLoop take_grain_loop(std::vector<char*>& arguments) {
   return suffuse::GrainLoop::vector;
 }
 
-void require_a_readable_script(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "-in") != 0 && std::strcmp(argv[i], "-i") != 0) continue;
-    const char* file = i + 1 < argc ? argv[i + 1] : "";
-    if (access(file, R_OK) != 0 || std::filesystem::is_directory(file))
-      suffuse::throw_user_error(
-          {"suffuse", "-in", *file ? file : "nothing", "name a readable script", "check the path"});
-    return;
-  }
-  if (isatty(STDIN_FILENO) != 0)
-    suffuse::throw_user_error(
-        {"suffuse", "-in", "nothing", "name a script", "suffuse -in SCRIPT, or see suffuse --help"});
-}
-
 /// Last words on the terminal and in the log, once for all ranks.
 void tell_the_end(const std::string& line, const LAMMPS_NS::LAMMPS* lmp, int rank) {
   std::fflush(nullptr);
@@ -170,12 +131,16 @@ void tell_the_end(const std::string& line, const LAMMPS_NS::LAMMPS* lmp, int ran
 int run_script(int argc, char** argv, int rank) {
   LAMMPS_NS::LAMMPS* lmp = nullptr;
   try {
-    require_a_readable_script(argc, argv);
-    suffuse::on_first_rank("suffuse", MPI_COMM_WORLD,
-                           [&] { require_known_variables(argc, argv, script_name(argc, argv)); });
+    suffuse::on_first_rank("suffuse", MPI_COMM_WORLD, [&] {
+      suffuse::require_known_options(argc, argv);
+      suffuse::require_a_readable_script(argc, argv);
+      suffuse::require_known_variables(argc, argv);
+    });
+    const char* script = suffuse::script_name(argc, argv);
+    suffuse::set_provenance({SUFFUSE_VERSION, script != nullptr ? script : ""});
     std::vector<char*> arguments = with_a_real_screen(argc, argv);
     const suffuse::GrainLoop loop = take_grain_loop(arguments);
-    add_folders(arguments, script_name(argc, argv));
+    add_folders(arguments, script);
     lmp = new LAMMPS_NS::LAMMPS(static_cast<int>(arguments.size()), arguments.data(), MPI_COMM_WORLD);
     suffuse::register_styles(lmp, loop);
     suffuse::coupling::LbmCommand::add_to(lmp);

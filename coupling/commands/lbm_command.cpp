@@ -246,7 +246,7 @@ void LbmCommand::warn_about_held_grains() {
        fmt::format(
            "lbm run: note: {} that no fix moves still {} a velocity (up to {:.3g} m/s), which drags the "
            "water along; where that is not meant, write `velocity GROUP set 0 0 0` and `set group "
-           "GROUP omegax 0 omegay 0 omegaz 0`\n",
+           "GROUP omegax 0 omegay 0 omegaz 0` (docs/reference/lbm.md#run)\n",
            count_text(held.grains, "grain"), held.grains == 1 ? "has" : "have", held.speed));
 }
 

@@ -393,6 +393,7 @@ std::vector<std::string> files_of(const OutputRequest& output) {
   if (output.grains)
     files.insert(files.end(),
                  {stem.string() + "_grains" + path.extension().string(), stem.string() + "_grains.xdmf"});
+  if (output.contacts) files.push_back(stem.string() + "_contacts.xdmf");
   return files;
 }
 

@@ -126,10 +126,11 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   for (const EffectChoice& effect : effects)
     lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
   if (const std::string note = resolution_note(grains, units.spacing()); !note.empty())
-    lines.push_back("note: " + note);
+    lines.push_back("note: " + note + " (docs/performance_coupled.md#what-accuracy-costs)");
   if (const std::string note = collision_note(simulation, grains); !note.empty())
-    lines.push_back("note: " + note);
-  for (const std::string& warning : units.warnings()) lines.push_back("note: " + warning);
+    lines.push_back("note: " + note + " (docs/reference/lbm.md#collision)");
+  for (const std::string& warning : units.warnings())
+    lines.push_back("note: " + warning + " (docs/reference/lbm.md#fluid-lattice)");
   return lines;
 }
 

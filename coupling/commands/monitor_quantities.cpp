@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compute.h"
 #include "fix.h"
@@ -194,19 +195,38 @@ Quantity discharge_quantity(int axis) {
           }};
 }
 
-Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
+std::vector<std::string> class_columns(const std::string& word, const std::vector<double>& bounds,
+                                       const std::string& unit) {
   std::vector<std::string> columns;
-  const auto& bounds = request.numbers;
   for (std::size_t k = 0; k <= bounds.size(); ++k) {
-    std::string name = "grains_left";
+    std::string name = word;
     if (k > 0) name += fmt::format("_from_{:g}_m", bounds[k - 1]);
     if (k < bounds.size()) name += fmt::format("_below_{:g}_m", bounds[k]);
-    columns.push_back(name);
+    columns.push_back(name + unit);
   }
+  return columns;
+}
+
+Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
+  const auto& bounds = request.numbers;
+  const std::vector<std::string> columns = class_columns(request.word, bounds, "");
   const auto first = std::make_shared<std::vector<double>>(now.port.grains_by_size(bounds));
   return {columns,
           [bounds, first](Sample& sample, std::vector<double>& row) {
             const std::vector<double> left = sample.port.grains_by_size(bounds);
+            for (std::size_t k = 0; k < left.size(); ++k) row.push_back((*first)[k] - left[k]);
+          },
+          first};
+}
+
+/// What has gone, or has come to lie beyond a height, since the first sample.
+Quantity eroded_mass_quantity(const QuantityRequest& request, int axis, Sample& now) {
+  const auto& bounds = request.numbers;
+  const double above = request.above.value_or(std::numeric_limits<double>::infinity());
+  const auto first = std::make_shared<std::vector<double>>(now.port.mass_by_size(bounds, axis, above));
+  return {class_columns(request.word, bounds, "_kg"),
+          [bounds, axis, above, first](Sample& sample, std::vector<double>& row) {
+            const std::vector<double> left = sample.port.mass_by_size(bounds, axis, above);
             for (std::size_t k = 0; k < left.size(); ++k) row.push_back((*first)[k] - left[k]);
           },
           first};
@@ -334,6 +354,7 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
               row.push_back(static_cast<double>(sample.grains().grains));
             }};
   if (word == "grains_left") return grains_left_quantity(request, now);
+  if (word == "eroded_mass") return eroded_mass_quantity(request, axis, now);
   if (word == "extremes")
     return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
             [](Sample& sample, std::vector<double>& row) {

@@ -13,7 +13,8 @@ namespace {
 constexpr const char* kKnown =
     "every, file, axis, layers, superficial_velocity, hydraulic_gradient, layer_gradient, layer_porosity, "
     "layer_pressure, solid_force, mean_force GROUP, mass, discharge, kinetic_energy, bed, grains, "
-    "grains_left D ..., extremes, or c_ID[k], f_ID[k], v_NAME [as NAME], with `relative` before it";
+    "grains_left D ..., eroded_mass [above H] D ..., extremes, or c_ID[k], f_ID[k], v_NAME [as NAME], with "
+    "`relative` before it";
 
 bool is_reference(const std::string& word) {
   return word.size() > 2 && word[1] == '_' && std::string("cfv").find(word[0]) != std::string::npos;
@@ -46,10 +47,12 @@ QuantityRequest read_quantity(ArgumentReader& reader, const std::string& first) 
           {reader.who(), "as", quantity.name, "have no comma or quote: it names a column of a CSV file", ""});
   } else if (first == "mean_force") {
     quantity.group = reader.word("group of mean_force");
-  } else if (first == "grains_left") {
-    while (reader.next_is_number()) quantity.numbers.push_back(reader.positive("diameter of grains_left"));
+  } else if (first == "grains_left" || first == "eroded_mass") {
+    if (first == "eroded_mass" && reader.accept("above"))
+      quantity.above = reader.number("height of eroded_mass");
+    while (reader.next_is_number()) quantity.numbers.push_back(reader.positive("diameter of " + first));
     if (!std::is_sorted(quantity.numbers.begin(), quantity.numbers.end()))
-      throw_user_error({reader.who(), "grains_left", "diameters out of order", "rise", "sort them"});
+      throw_user_error({reader.who(), first, "diameters out of order", "rise", "sort them"});
   } else if (std::find(plain.begin(), plain.end(), first) == plain.end()) {
     reader.unknown(first, kKnown);
   }

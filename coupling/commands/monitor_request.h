@@ -11,7 +11,8 @@ namespace suffuse::coupling {
 /// One quantity of a `lbm monitor` line, as written.
 struct QuantityRequest {
   std::string word;             ///< one of ours, or a reference c_ID[k], f_ID[k], v_NAME
-  std::vector<double> numbers;  ///< diameters of `grains_left`
+  std::vector<double> numbers;  ///< diameters of `grains_left`, `eroded_mass`
+  std::optional<double> above;  ///< of `eroded_mass`: coordinate along the axis, m
   std::string group;            ///< of `mean_force`
   bool relative = false;        ///< divided by the first sample's value
   std::string name;             ///< `as NAME`; empty: made from the word

@@ -133,6 +133,10 @@ class LiggghtsPort final : public ParticlePort {
   /// first and second, ..., above the last (m, rising). Collective.
   std::vector<double> grains_by_size(const std::vector<double>& bounds) const;
 
+  /// Mass of the same classes, with the grains' own densities, of grains whose centres lie below a coordinate
+  /// along an axis, kg. Collective.
+  std::vector<double> mass_by_size(const std::vector<double>& bounds, int axis, double below) const;
+
   /// From the timer of the last `run`. Collective.
   PastRun past_run() const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "atom.h"
@@ -151,6 +152,22 @@ std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& boun
   MPI_Allreduce(MPI_IN_PLACE, counts.data(), static_cast<int>(counts.size()), MPI_DOUBLE, MPI_SUM,
                 lmp_->world);
   return counts;
+}
+
+std::vector<double> LiggghtsPort::mass_by_size(const std::vector<double>& bounds, int axis,
+                                               double below) const {
+  std::vector<double> masses(bounds.size() + 1, 0);
+  const auto* atom = lmp_->atom;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & fix_->groupbit) == 0 || !(atom->x[i][axis] < below)) continue;
+    const double radius = atom->radius[i];
+    const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * radius);
+    masses[static_cast<std::size_t>(above - bounds.begin())] +=
+        atom->density[i] * 4. / 3 * std::numbers::pi * radius * radius * radius;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, masses.data(), static_cast<int>(masses.size()), MPI_DOUBLE, MPI_SUM,
+                lmp_->world);
+  return masses;
 }
 
 Vec3 LiggghtsPort::mean_load(int groupbit) const {

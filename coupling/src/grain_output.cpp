@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numeric>
 #include <vector>
 
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/provenance.h"
 
 namespace suffuse::coupling {
 
@@ -34,30 +36,37 @@ class RowWriter {
       : file_(file), group_(group), rows_(rows) {}
 
   template <class T>
-  void scalars(const std::string& name, const std::vector<T>& values) {
+  void scalars(const std::string& name, const std::string& units, const std::vector<T>& values) {
     file_.create_array<T>(group_ + "/" + name, {rows_.all});
+    set_units(name, units);
     file_.write(group_ + "/" + name, {{rows_.all}, {rows_.first}, {rows_.mine}}, values);
   }
 
   /// `columns` values a row, one row after the other.
   template <class T>
-  void table(const std::string& name, std::size_t columns, const std::vector<T>& values) {
+  void table(const std::string& name, const std::string& units, std::size_t columns,
+             const std::vector<T>& values) {
     file_.create_array<T>(group_ + "/" + name, {rows_.all, columns});
+    set_units(name, units);
     file_.write(group_ + "/" + name, {{rows_.all, columns}, {rows_.first, 0}, {rows_.mine, columns}}, values);
   }
 
   /// Three values a row, `stride` apart.
-  void vectors(const std::string& name, const double* values, int stride) {
+  void vectors(const std::string& name, const std::string& units, const double* values, int stride) {
     std::vector<double> packed;
     packed.reserve(3 * rows_.mine);
     for (std::size_t n = 0; n < rows_.mine; ++n) {
       const double* from = values + n * static_cast<std::size_t>(stride);
       packed.insert(packed.end(), from, from + 3);
     }
-    table(name, 3, packed);
+    table(name, units, 3, packed);
   }
 
  private:
+  void set_units(const std::string& name, const std::string& units) {
+    if (!units.empty()) file_.set_attribute(group_ + "/" + name, "units", units);
+  }
+
   Hdf5File& file_;
   std::string group_;
   Rows rows_;
@@ -68,16 +77,16 @@ void write_grains(Hdf5File& file, const std::string& step, const GrainArrays& gr
   const Rows rows = rows_of(static_cast<std::size_t>(grains.owned), communicator);
   file.create_group(step + "/grains");
   RowWriter writer(file, step + "/grains", rows);
-  writer.scalars("id", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
+  writer.scalars("id", "", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
   std::vector<double> radius(grains.radius, grains.radius + grains.owned);
-  writer.scalars("radius", radius);
+  writer.scalars("radius", "m", radius);
   for (double& r : radius) r *= 2;
-  writer.scalars("diameter", radius);
-  writer.vectors("position", grains.position, 3);
-  writer.vectors("velocity", grains.velocity, 3);
-  writer.vectors("angular_velocity", grains.angular_velocity, 3);
-  writer.vectors("force", memory.load, 6);
-  writer.vectors("torque", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
+  writer.scalars("diameter", "m", radius);
+  writer.vectors("position", "m", grains.position, 3);
+  writer.vectors("velocity", "m/s", grains.velocity, 3);
+  writer.vectors("angular_velocity", "rad/s", grains.angular_velocity, 3);
+  writer.vectors("force", "N", memory.load, 6);
+  writer.vectors("torque", "N m", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
 }
 
 /// The same on all ranks; rank 0 writes it.
@@ -99,29 +108,40 @@ void write_box(Hdf5File& file, const std::string& step, const GrainSnapshot& sna
 void write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
                     MPI_Comm communicator) {
   std::vector<std::int64_t> ids;
-  std::vector<double> force, branch, friction, limit, spring;
+  std::vector<double> force, normal, branch, ends, friction, limit, spring;
   for (const micromechanics::Contact& contact : network.contacts) {
     if (!is_counted(network, contact)) continue;
     ids.insert(ids.end(), {first_grain(network, contact).id, second_id(network, contact)});
     force.insert(force.end(), contact.force.begin(), contact.force.end());
+    normal.push_back(micromechanics::normal_force(contact));
     branch.insert(branch.end(), contact.branch.begin(), contact.branch.end());
+    const Vec3& first = first_grain(network, contact).position;
+    const Vec3 second = first - contact.branch;
+    ends.insert(ends.end(), first.begin(), first.end());
+    ends.insert(ends.end(), second.begin(), second.end());
     friction.push_back(contact.friction);
     limit.push_back(contact.friction_limit);
     spring.push_back(contact.spring_force);
   }
   file.create_group(step + "/contacts");
-  RowWriter writer(file, step + "/contacts", rows_of(friction.size(), communicator));
-  writer.table("ids", 2, ids);
-  writer.table("force", 3, force);
-  writer.table("branch", 3, branch);
-  writer.scalars("friction", friction);
-  writer.scalars("friction_limit", limit);
-  writer.scalars("spring_force", spring);
+  const Rows rows = rows_of(friction.size(), communicator);
+  std::vector<std::int64_t> lines(2 * rows.mine);
+  std::iota(lines.begin(), lines.end(), static_cast<std::int64_t>(2 * rows.first));
+  RowWriter writer(file, step + "/contacts", rows);
+  writer.table("ids", "", 2, ids);
+  writer.table("force", "N", 3, force);
+  writer.scalars("normal_force", "N", normal);
+  writer.table("branch", "m", 3, branch);
+  writer.table("ends", "m", 6, ends);
+  writer.table("lines", "", 2, lines);
+  writer.scalars("friction", "1", friction);
+  writer.scalars("friction_limit", "N", limit);
+  writer.scalars("spring_force", "N", spring);
 }
 
 /// Bytes of the arrays, of all ranks.
 std::size_t room_for(const GrainSnapshot& snapshot, MPI_Comm communicator) {
-  constexpr std::size_t grain = 8 * (1 + 2 + 5 * 3), contact = 8 * (2 + 2 * 3 + 1);
+  constexpr std::size_t grain = 8 * (1 + 2 + 5 * 3), contact = 8 * (2 + 2 + 2 * 3 + 6 + 4);
   std::size_t bytes = grain * rows_of(static_cast<std::size_t>(snapshot.grains.owned), communicator).all;
   if (snapshot.network != nullptr)
     bytes += contact * rows_of(snapshot.network->contacts.size(), communicator).all;
@@ -129,11 +149,12 @@ std::size_t room_for(const GrainSnapshot& snapshot, MPI_Comm communicator) {
 }
 
 std::string xdmf_attribute(const std::string& file, const std::string& group, const std::string& name,
-                           std::size_t rows, bool vector, bool integer) {
+                           std::size_t rows, bool vector, bool integer, const char* centre = "Node") {
   return fmt::format(
-      "        <Attribute Name=\"{0}\" AttributeType=\"{1}\" Center=\"Node\"><DataItem Dimensions=\"{2}{3}\" "
+      "        <Attribute Name=\"{0}\" AttributeType=\"{1}\" Center=\"{7}\"><DataItem Dimensions=\"{2}{3}\" "
       "NumberType=\"{4}\" Precision=\"8\" Format=\"HDF\">{5}:{6}/{0}</DataItem></Attribute>\n",
-      name, vector ? "Vector" : "Scalar", rows, vector ? " 3" : "", integer ? "Int" : "Float", file, group);
+      name, vector ? "Vector" : "Scalar", rows, vector ? " 3" : "", integer ? "Int" : "Float", file, group,
+      centre);
 }
 
 std::string xdmf_snapshot(const std::string& file, const std::string& group, double time, std::size_t rows) {
@@ -151,14 +172,48 @@ std::string xdmf_snapshot(const std::string& file, const std::string& group, dou
   return text + "      </Grid>\n";
 }
 
+/// Lines from centre to centre; across a periodic face the second end lies outside of the box.
+std::string xdmf_contacts(const std::string& file, const std::string& group, double time, std::size_t rows) {
+  std::string text = fmt::format(
+      "      <Grid Name=\"contacts\" GridType=\"Uniform\">\n        <Time Value=\"{0:.17g}\"/>\n"
+      "        <Topology TopologyType=\"Polyline\" NumberOfElements=\"{1}\" NodesPerElement=\"2\"><DataItem "
+      "Dimensions=\"{1} 2\" NumberType=\"Int\" Precision=\"8\" Format=\"HDF\">{3}:{4}/lines</DataItem>"
+      "</Topology>\n        <Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"{2} 3\" "
+      "NumberType=\"Float\" "
+      "Precision=\"8\" Format=\"HDF\">{3}:{4}/ends</DataItem></Geometry>\n",
+      time, rows, 2 * rows, file, group);
+  for (const char* scalar : {"normal_force", "friction"})
+    text += xdmf_attribute(file, group, scalar, rows, false, false, "Cell");
+  text += xdmf_attribute(file, group, "force", rows, true, false, "Cell");
+  return text + "      </Grid>\n";
+}
+
+void write_xdmf(const std::string& path, const std::string& name, const std::string& snapshots,
+                MPI_Comm communicator) {
+  write_text(
+      path, "output of " + name,
+      fmt::format("<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"{}\" "
+                  "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}    </Grid>\n  "
+                  "</Domain>\n</Xdmf>\n",
+                  name, snapshots),
+      communicator);
+}
+
 }  // namespace
+
+std::string contacts_beside(const std::string& path) {
+  const std::filesystem::path file(path);
+  std::string stem = file.stem().string();
+  if (stem.ends_with("_grains")) stem.resize(stem.size() - std::string("_grains").size());
+  return (file.parent_path() / (stem + "_contacts.xdmf")).string();
+}
 
 void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
   const std::string name = fmt::format("step_{:012d}", snapshot.step), step = "/" + name;
   const std::string file_name = std::filesystem::path(path_).filename().string();
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
-  std::string snapshots;
+  std::string snapshots, contact_snapshots;
   {
     Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator,
                   Hdf5File::Growth::noted);
@@ -166,6 +221,7 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
     file.reserve(room_for(snapshot, communicator));
     for (const std::string& old : file.names_in("/"))
       if (old.starts_with("step_") && old >= name) file.remove("/" + old);
+    write_provenance(file);
     file.create_group(step);
     file.set_attribute(step, "time_s", snapshot.time);
     write_grains(file, step, snapshot.grains, snapshot.memory, communicator);
@@ -176,14 +232,18 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
       const std::string part = "/" + each + "/grains";
       if (const std::size_t count = file.extents(part + "/id").at(0); count > 0)
         snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, "time_s"), count);
+      const std::string network = "/" + each + "/contacts";
+      if (!file.exists(network + "/lines")) continue;
+      if (const std::size_t count = file.extents(network + "/lines").at(0); count > 0)
+        contact_snapshots +=
+            xdmf_contacts(file_name, network, file.number_attribute("/" + each, "time_s"), count);
     }
     file.close();
   }
-  write_text(std::filesystem::path(path_).replace_extension(".xdmf").string(), "output of grains",
-             "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid "
-             "Name=\"grains\" GridType=\"Collection\" CollectionType=\"Temporal\">\n" +
-                 snapshots + "    </Grid>\n  </Domain>\n</Xdmf>\n",
+  write_xdmf(std::filesystem::path(path_).replace_extension(".xdmf").string(), "grains", snapshots,
              communicator);
+  if (snapshot.network != nullptr)
+    write_xdmf(contacts_beside(path_), "contacts", contact_snapshots, communicator);
 }
 
 }  // namespace suffuse::coupling

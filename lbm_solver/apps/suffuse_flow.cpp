@@ -10,10 +10,12 @@
 #include <cstdlib>
 
 #include "suffuse/common/collective_text.h"
+#include "suffuse/common/command_line_help.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/provenance.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/common/time_series_file.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -296,11 +298,13 @@ int main(int argc, char** argv) {
   int status = 0;
   try {
     app.parse(argc, argv);
+    set_provenance({SUFFUSE_VERSION, path});
     if (FlowRun(read_flow_case(path)).run() == FlowRun::End::not_steady) status = kNotSteady;
     require_printed_output();
   } catch (const CLI::ParseError& error) {
-    status = rank == 0 ? app.exit(error) : error.get_exit_code();
-    if (status != 0) status = 1;
+    status = error.get_exit_code() == 0 ? 0 : 1;
+    if (rank == 0 && status == 0) app.exit(error);  // --help, --version
+    if (rank == 0 && status != 0) fmt::print(stderr, "suffuse-flow: {}\n", explain(app, error));
   } catch (const UserError& error) {  // on all ranks alike
     if (rank == 0) fmt::print(stderr, "\nsuffuse-flow: {}\n", error.what());
     status = dynamic_cast<const LostRun*>(&error) != nullptr ? kLostRunExitCode : 1;

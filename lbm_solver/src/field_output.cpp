@@ -6,6 +6,7 @@
 
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/provenance.h"
 #include "suffuse/lbm/cell_array.h"
 
 namespace suffuse::lbm {
@@ -30,6 +31,20 @@ std::string name_of(Field field) {
       return "solid_fraction";
   }
   return "unknown";
+}
+
+std::string unit_of(Field field) {
+  switch (field) {
+    case Field::velocity:
+      return "m/s";
+    case Field::pressure:
+      return "Pa";
+    case Field::density:
+      return "kg/m3";
+    case Field::solid_fraction:
+      break;
+  }
+  return "1";
 }
 
 ArrayPart part_of(const Decomposition& d, bool vector) {
@@ -122,12 +137,18 @@ void FieldOutput::write(const Fluid& fluid) {
     file.reserve(values * sizeof(float) * CellBox{{0, 0, 0}, d.cells()}.volume());
     for (const std::string& name : file.names_in("/"))
       if (name.starts_with("step_") && name >= group) file.remove("/" + name);
+    write_provenance(file);
+    for (int axis = 0; axis < 3; ++axis)
+      file.set_attribute("/", fmt::format("origin_{}_m", "xyz"[axis]), settings_.origin[axis]);
+    file.set_attribute("/", "spacing_m", units_.spacing());
     file.create_group("/" + group);
     file.set_attribute("/" + group, "time_s", units_.time_to_si(static_cast<double>(fluid.steps())));
     for (const Field field : settings_.fields) {
       const ArrayPart part = part_of(d, field == Field::velocity);
-      file.create_array<float>("/" + group + "/" + name_of(field), part.whole);
-      file.write("/" + group + "/" + name_of(field), part, values_of(field, fluid, units_, settings_));
+      const std::string array = "/" + group + "/" + name_of(field);
+      file.create_array<float>(array, part.whole);
+      file.set_attribute(array, "units", unit_of(field));
+      file.write(array, part, values_of(field, fluid, units_, settings_));
     }
     for (const std::string& name : file.names_in("/"))
       if (name.starts_with("step_"))

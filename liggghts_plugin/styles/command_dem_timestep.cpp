@@ -51,15 +51,17 @@ std::string describe(const suffuse::PairLaw& law, const suffuse::CriticalGrain& 
   if (law.kind() == suffuse::PairLaw::Kind::other)
     text +=
         "WARNING: the Rayleigh time is the limit of Hertz's law; that of this pair law is not known here: "
-        "check the step by halving it\n";
+        "check the step by halving it (docs/reference/dem_timestep.md)\n";
   if (kappa < kLeastStiffnessNumber)
     text += fmt::format(
-        "WARNING: kappa < {:g}: contacts are softened; porosity, Z and alpha shift, see the page on "
-        "stiffness\n",
+        "WARNING: kappa < {:g}: contacts are softened; porosity, Z and alpha shift "
+        "(docs/results/contact_stiffness.md)\n",
         kLeastStiffnessNumber);
   const double largest = law.is_linear() ? kLargestDurationShare : kLargestRayleighShare;
   if (step > largest * (1 + 1e-9) * grain.time)
-    text += fmt::format("WARNING: more than {:g} of the {}: energy may drift\n", largest, law.time_name());
+    text +=
+        fmt::format("WARNING: more than {:g} of the {}: energy may drift (docs/reference/dem_timestep.md)\n",
+                    largest, law.time_name());
   return text;
 }
 

@@ -333,7 +333,8 @@ void FixDensityScaling::warn_above_bound() {
   suffuse::tell(
       lmp, fmt::format(
                "WARNING: fix density/scaling {}: inertial number {:.3g} of the scaled grains at step {} is "
-               "above {:g}: the loading is not quasi-static for them; load more slowly or scale less\n",
+               "above {:g}: the loading is not quasi-static for them; load more slowly or scale less "
+               "(docs/reference/fix_density_scaling.md)\n",
                id, inertial_number_, update->ntimestep, bound_));
 }
 

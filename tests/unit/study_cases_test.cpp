@@ -186,6 +186,14 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
       scratch.write("in.branch", "if \"1 > 0\" then \"include ${script_folder}/other.inc\"\n");
   CHECK_NOTHROW(ScriptVariables(in_branch, "x").require_known("unseen", "x"));
   CHECK(message_of([&] { ScriptVariables(in_branch, "x").require_known("case", "x"); }) != "");
+  CHECK_NOTHROW(all.require_choice("case", "B", "x"));
+  CHECK_NOTHROW(all.require_choice("tau", "anything", "x"));
+  CHECK(message_of([&] { all.require_choice("case", "b", "x"); }) ==
+        "x: case = b, must be one of A, B; did you mean B? each is a file beside in.scene");
+  const std::string making = scratch.write("in.making",
+                                           "print \"x\" file ${script_folder}/case_${case}.inc\n"
+                                           "include ${script_folder}/case_${case}.inc\n");
+  CHECK_NOTHROW(ScriptVariables(making, "x").require_choice("case", "C", "x"));
   const std::string before = variables.fingerprint();
   scratch.write("case_B.inc", "variable speed index 2\n");
   CHECK(ScriptVariables(script, "x").fingerprint() != before);

@@ -17,7 +17,8 @@ class UserError : public std::runtime_error {
 };
 
 /// The parts of a message about wrong input, in the order in which they are read:
-/// `who: what = value, must <rule>; <remedy>`.
+/// `who: what = value, must <rule>; <remedy>`. Where the rule lists words, `be one of a, b, c`, and the value
+/// is near one of them, the line asks `did you mean b?`.
 struct InputProblem {
   std::string who;     ///< command or style, e.g. "fix stress/servo"
   std::string what;    ///< the word that is wrong, e.g. "target"

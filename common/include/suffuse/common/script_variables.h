@@ -22,20 +22,27 @@ class ScriptVariables {
   /// Throws UserError where the variable's name stands nowhere, neither used nor set, although all that is
   /// included was found: -var would change nothing. Names the nearest of those that -var can set.
   void require_known(const std::string& name, const std::string& who) const;
+  /// Throws UserError where the variable's value is part of the name of an included file of the script's own
+  /// folders (`include ${script_folder}/scale_${scale}.inc`) and no such file is there, nor made by the
+  /// script; names those that are.
+  void require_choice(const std::string& name, const std::string& value, const std::string& who) const;
   /// Of the script and all that it includes: changes where any of them does (FNV-1a, 16 hexadecimal digits).
   std::string fingerprint() const;
 
  private:
   void read(const std::string& file);
   void note_definition(const std::string& line);
-  void include(const std::string& words);
+  void include(const std::string& words, bool always);
+  void note_choices(const std::string& name, const std::vector<std::string>& fitting);
   std::string folder_of(const std::string& name) const;
   bool uses(const std::string& name) const;
 
   std::string script_, folder_, text_;
   std::vector<std::string> files_, settable_, set_by_script_;
-  std::map<std::string, std::string> values_;  ///< of variables in folders' names
-  bool all_found_ = true;                      ///< no file is included from a folder that is not known
+  std::map<std::string, std::string> values_;                ///< of variables in folders' names
+  std::map<std::string, std::vector<std::string>> choices_;  ///< of variables in files' names
+  std::map<std::string, std::string> included_as_;           ///< such a file's name, variable and all
+  bool all_found_ = true;  ///< no file is included from a folder that is not known
 };
 
 /// FNV-1a, 64 bits, as 16 hexadecimal digits.

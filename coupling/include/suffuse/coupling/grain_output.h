@@ -31,7 +31,11 @@ struct GrainSnapshot {
 /// - contacts, where there is a network: one row a contact, each once over all ranks and periodic images: ids
 ///   of both grains; force on the first (N); branch from the second's centre to the first's (m); friction
 ///   coefficient; friction_limit and spring_force (N), what the contact law caps its tangential spring with
-///   and the spring's force, for `suffuse-analyse` to tell which contacts slide.
+///   and the spring's force, for `suffuse-analyse` to tell which contacts slide; normal_force (N, compression
+///   positive); ends (m), the two centres, and lines, their numbers, which the file *_contacts.xdmf shows in
+///   ParaView as lines beside the grains (filters Extract Surface and Tube).
+///
+/// Arrays have an attribute `units`, the root suffuse_version and script.
 ///
 /// That is what `suffuse-analyse contacts` reads (docs/analysis/suffuse-analyse.md). The XDMF file beside it
 /// shows the grains as points in ParaView (filter Glyph, sphere, scaled by `diameter`). After each snapshot
@@ -49,5 +53,8 @@ class GrainOutput {
   std::string path_;
   bool append_;
 };
+
+/// The name of the XDMF file of the contacts in an HDF5 file of grains.
+std::string contacts_beside(const std::string& path);
 
 }  // namespace suffuse::coupling

@@ -26,8 +26,9 @@ std::string xdmf_beside(const std::string& path);
 
 /// A time series of fields on the cells, in SI: velocity (m/s), pressure (Pa above the reference), density
 /// (kg/m^3), solid fraction (-). Each snapshot is a group /step_NNNNNNNNNNNN of the HDF5 file, written by all
-/// ranks together in float; ParaView opens the XDMF file. After each snapshot both files are complete: a run
-/// that is killed loses none.
+/// ranks together in float, each array with an attribute `units`; the root has origin_x_m, origin_y_m,
+/// origin_z_m (low corner of the first cell), spacing_m, suffuse_version and script. ParaView opens the XDMF
+/// file. After each snapshot both files are complete: a run that is killed loses none.
 class FieldOutput {
  public:
   FieldOutput(const FieldOutputSettings& settings, const Units& units);
