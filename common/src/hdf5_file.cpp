@@ -201,7 +201,10 @@ void add_array_bytes(hid_t group, std::vector<ArrayBytes>& all) {
 
 /// On one rank: takes back what a killed writer left, and notes what there is.
 void note_growth(const std::string& path, bool anew) {
-  undo_if_killed(path);
+  if (anew)
+    drop_undo(path);
+  else
+    undo_if_killed(path);
   std::vector<ArrayBytes> all;
   const bool grows = !anew && std::filesystem::exists(path);
   if (grows) {

@@ -77,7 +77,7 @@ void write_undo(const std::string& path, std::uint64_t length, std::vector<Array
     std::error_code ignored;
     fs::remove(part, ignored);
     throw_user_error({"HDF5", "file", path, "have room for a note beside it",
-                      "is the disk full? What was written before is whole"});
+                      "make room on the disk; what was written before is whole"});
   }
   fs::rename(part, undo_of(path));  // whole from its first moment
 }
@@ -96,8 +96,8 @@ void undo_if_killed(const std::string& path) {
     throw_user_error(
         {"HDF5", "file", undo_of(path), "be a note of this version", "remove it, or the file with it"});
   const auto length = get<std::uint64_t>(note), count = get<std::uint64_t>(note);
-  if (length == 0) {
-    std::error_code ignored;
+  std::error_code ignored;
+  if (length == 0 || !fs::exists(path, ignored)) {  // nothing there before, or taken away since
     fs::remove(path, ignored);
     drop_undo(path);
     return;
