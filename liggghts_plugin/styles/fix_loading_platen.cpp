@@ -70,16 +70,10 @@ FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(l
   if (found == planes.end()) reader.unknown(plane, "xplane, yplane, zplane");
   axis_ = static_cast<int>(found - planes.begin());
   motion_.position = reference_ = reader.number("position");
-  bool given = false;
-  while (!reader.done()) {
-    const std::size_t loading = stress_.has_value() ? 1 : 0;
-    if (reader.accept("fixed"))
-      given = true;
-    else if (!read_changeable(reader))
-      read_construction(reader);
-    given = given || (stress_.has_value() && loading == 0);
-  }
-  if (!given)
+  loading_given_ = false;
+  while (!reader.done())
+    if (!read_changeable(reader)) read_construction(reader);
+  if (!loading_given_)
     throw_user_error({kWho, "stress", "nothing", "be given", "write `stress P` (Pa), or `fixed`"});
   check_words();
   vector_flag = 1;
@@ -95,9 +89,13 @@ FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(l
 
 /// Words that `fix_modify` takes too.
 bool FixLoadingPlaten::read_changeable(suffuse::ArgumentReader& reader) {
-  if (reader.keyword("stress"))
-    stress_ = reader.positive("stress");
-  else if (reader.keyword("opening"))
+  const bool fixed = reader.keyword("fixed");
+  if (fixed || reader.keyword("stress")) {
+    if (loading_given_)
+      throw_user_error({reader.who(), "stress", "given together with fixed", "be given, or fixed", "drop one of the two"});
+    loading_given_ = true;
+    stress_ = fixed ? std::nullopt : std::optional(reader.positive("stress"));
+  } else if (reader.keyword("opening"))
     opening_ = reader.number("opening");
   else if (reader.keyword("speed"))
     given_speed_ = reader.positive("speed");
@@ -254,12 +252,12 @@ void FixLoadingPlaten::pre_exchange() {
 
 int FixLoadingPlaten::modify_param(int narg, char** arg) {
   suffuse::ArgumentReader reader("fix_modify of a loading/platen", narg, arg, 0);
+  loading_given_ = false;
   while (!reader.done()) {
-    if (reader.accept("fixed"))
-      stress_.reset();
-    else if (reader.accept("settlement"))
-      reference_ = reader.accept("zero") ? motion_.position : (reader.unknown(reader.word("settlement"), "zero"), 0);
-    else if (!read_changeable(reader))
+    if (reader.keyword("settlement")) {
+      if (!reader.accept("zero")) reader.unknown(reader.word("settlement"), "zero");
+      reference_ = motion_.position;
+    } else if (!read_changeable(reader))
       reader.unknown(reader.word("keyword"), std::string(kChangeable) + ", settlement zero");
   }
   return narg;

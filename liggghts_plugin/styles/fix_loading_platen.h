@@ -63,6 +63,7 @@ class FixLoadingPlaten : public Fix {
   int axis_ = 2;
   double outward_ = 1;
   std::optional<double> stress_;  // Pa; none: the platen is fixed
+  bool loading_given_ = false;    // in the line that is read
   double opening_ = 0;            // m
   double collect_ = 0;            // m; 0: grains that pass stay in the box
   double given_speed_ = 0, given_mass_ = 0, given_area_ = 0;  // 0: chosen here
