@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""suffusion_scene.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
+
+Scene 09 on a few grains: water washes the fines out through the upper platen and leaves the coarse grains, nothing is lost by class, the
+platen keeps its stress, the lower one feels what the water takes off; a run that is cut goes on; held, swinging and downward gradients.
+"""
+import csv
+import math
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from scenes import columns, expect, program_from_command_line, scratch  # noqa: E402
+
+SCENE = ROOT / "input_scripts" / "09_suffusion" / "in.suffusion"
+TINY = {"grains": 120, "aspect": 1, "rest_time": 0.02, "largest_gradient": 8, "ramp_time": 0.1, "output_time": 0.05, "dump_time": 0.05, "layers": 2}
+STRESS, DENSITY, SPLIT = 100, 2650, 2.50324977e-4
+
+
+def masses(path):
+    """Of a dump: fines below and above the middle of their sizes, coarse grains, kg."""
+    sums = [0, 0, 0]
+    middle = math.sqrt(7.86013986e-5 * SPLIT)
+    for line in path.read_text().splitlines()[9:]:
+        diameter = 2 * float(line.split()[5])
+        sums[(diameter >= middle) + (diameter >= SPLIT)] += DENSITY * math.pi / 6 * diameter ** 3
+    return sums
+
+
+def result(folder, name):
+    with open(folder / "suffusion_result.csv") as file:
+        return next(float(row["value"]) for row in csv.DictReader(file) if row["quantity"] == name)
+
+
+def check_kept(folder, name):
+    # 2e-6: digits of the report.
+    expect(abs(result(folder, "mass_balance") - 1) < 1e-9, f"{name}: mass balance {result(folder, 'mass_balance')}")
+    flow, before, after = columns(folder / "flow.csv"), masses(folder / "at_rest.grains.dump"), masses(folder / "left.grains.dump")
+    for k, name_of_class in enumerate(("finer_fines", "larger_fines", "coarse")):
+        out = result(folder, f"eroded_{name_of_class}_kg")
+        expect(abs(after[k] + out - before[k]) < 2e-6 * sum(before), f"{name}, {name_of_class}: {before[k]} kg became {after[k]} and {out}")
+        expect(k < 2 or out == 0, f"{name}: coarse grains have left")
+    return flow
+
+
+def main():
+    program = program_from_command_line(__doc__)
+    with scratch() as scratch_folder:
+        folder = pathlib.Path(scratch_folder)
+        program.run_scene(SCENE, folder, {**TINY, "save_every": 0.04})
+        flow = check_kept(folder, "ramp")
+        expect(flow["eroded_fines_share"][-1] > 0.3, f"only {flow['eroded_fines_share'][-1]} of the fines have left")
+        expect(max(abs(value / STRESS - 1) for value in flow["platen_stress_pa"]) < 0.01, "the platen's stress")
+        # The drop of pressure is taken off the lower platen. 10 %: in so short a ramp fines are being accelerated (0.2 % in a slow one).
+        with open(folder / "layers.inc") as file:
+            thickness = float(file.read().split()[-1]) - 6 * 7.86013986e-5 / 2
+        rows = [k for k, gradient in enumerate(flow["applied_gradient"]) if 1 < gradient < 3]
+        taken = sum((flow["base_stress_pa"][0] - flow["base_stress_pa"][k]) / (9810 * flow["applied_gradient"][k] * thickness) for k in rows) / len(rows)
+        expect(abs(taken - 1) < 0.1, f"taken off the lower platen: {taken} of the drop of pressure")
+        sets = sorted((folder / name for name in ("water.h5.1", "water.h5.2")), key=lambda part: (part / "fluid.h5").stat().st_mtime_ns)
+        program.run_scene(SCENE, folder, {**TINY, "begin": "continued", "restart": sets[0].name})
+        continued = check_kept(folder, "continued")
+        # What follows the water's time is the same; which grains leave when is chaotic.
+        for name, tolerance in (("time_s", 1e-12), ("applied_gradient", 1e-9), ("eroded_fines_share", 0.2)):
+            difference = max(abs(a - b) for a, b in zip(flow[name], continued[name]))
+            expect(len(flow[name]) == len(continued[name]) and difference < tolerance, f"{name} differs by {difference}")
+        short = {**TINY, "begin": "restart", "restart": folder / "consolidated.restart", "rest_time": 0.005}
+        for name, drive in (("stages", {"drive": "stages", "stage_ramp": 1e-3, "stage_hold": 1e-3}),
+                            ("cyclic", {"drive": "cyclic", "cyclic_frequency": 100, "cyclic_cycles": 1.5, "cyclic_mean": 2, "cyclic_amplitude": 1}),
+                            ("down", {"flow": "down", "ramp_time": 0.02})):
+            (folder / name).mkdir()
+            program.run_scene(SCENE, folder / name, {**short, **drive})
+            part = check_kept(folder / name, name)
+            if name == "cyclic":
+                expect(abs(max(part["applied_gradient"]) - 3) < 0.1 and min(part["applied_gradient"][3:]) < 1.1, f"cyclic: {part['applied_gradient']}")
+            if name == "stages":
+                expect(abs(part["applied_gradient"][-1] - 8) < 0.5, f"stages end at {part['applied_gradient'][-1]}")
+            if name == "down":
+                expect(part["superficial_velocity_z_m_per_s"][-1] < 0 and part["base_stress_pa"][-1] > part["base_stress_pa"][0] + 20, "flow down")
+        print(f"{program.ranks} ranks: {flow['eroded_fines_share'][-1]:.2f} of the fines washed out, none lost")
+
+
+if __name__ == "__main__":
+    main()
