@@ -22,15 +22,16 @@ double damping_factor(double restitution) {
 Reaction reaction(const Material& material, double radius, double mass, double overlap, double approach) {
   const micromechanics::HertzPair pair{material.effective_modulus, radius};
   const double stiffness = micromechanics::hertz_stiffness_at(pair, overlap);
-  const double force = micromechanics::hertz_force(pair, overlap) +
-                       material.damping * std::sqrt(stiffness * mass) * approach;
+  const double force =
+      micromechanics::hertz_force(pair, overlap) + material.damping * std::sqrt(stiffness * mass) * approach;
   return {std::max(0., force), stiffness};
 }
 
 void advance(Motion& motion, const Drive& drive, const Reaction& all, double outward, double step) {
   const double damping = 2 * drive.damping_ratio * std::sqrt(all.stiffness * drive.mass);
   const double pushed = motion.velocity + step / drive.mass * (all.force - drive.load);
-  motion.velocity = std::clamp(pushed / (1 + step * damping / drive.mass), -drive.most_speed, drive.most_speed);
+  motion.velocity =
+      std::clamp(pushed / (1 + step * damping / drive.mass), -drive.most_speed, drive.most_speed);
   motion.position += outward * motion.velocity * step;
 }
 
@@ -39,7 +40,8 @@ double stiffness_of_step(const Drive& drive, const Reaction& all, double step) {
 }
 
 std::size_t SizeTally::class_of(double diameter) const {
-  return static_cast<std::size_t>(std::upper_bound(bounds_.begin(), bounds_.end(), diameter) - bounds_.begin());
+  return static_cast<std::size_t>(std::upper_bound(bounds_.begin(), bounds_.end(), diameter) -
+                                  bounds_.begin());
 }
 
 SizeTally::Row SizeTally::total() const {

@@ -3,8 +3,9 @@
 #include <cstddef>
 #include <vector>
 
-/// A loading platen: a rigid plate across an axis that presses on a sample at a constant stress. Pure: no LIGGGHTS,
-/// no MPI. SI units. Distances, velocities and forces along the axis count from the sample outwards.
+/// A loading platen: a rigid plate across an axis that presses on a sample at a constant stress. Pure: no
+/// LIGGGHTS, no MPI. SI units. Distances, velocities and forces along the axis count from the sample
+/// outwards.
 namespace suffuse::platen {
 
 /// Of a grain and the platen together, as of two grains of which one is flat and cannot be moved: R* is the
@@ -26,8 +27,9 @@ struct Reaction {
   double stiffness = 0;  ///< tangent, 2E*√(R δ), N/m
 };
 
-/// Hertz's force 4/3 E*√(R δ) δ and the damping of LIGGGHTS's `model hertz`, γ √(S_n m) v with S_n = 2E*√(R δ)
-/// and v the speed of approach (m/s), together never attractive. `overlap` δ > 0, m; `radius` R, m; `mass`, kg.
+/// Hertz's force 4/3 E*√(R δ) δ and the damping of LIGGGHTS's `model hertz`, γ √(S_n m) v with S_n = 2E*√(R
+/// δ) and v the speed of approach (m/s), together never attractive. `overlap` δ > 0, m; `radius` R, m;
+/// `mass`, kg.
 Reaction reaction(const Material& material, double radius, double mass, double overlap, double approach);
 
 struct Motion {
@@ -37,10 +39,10 @@ struct Motion {
 
 /// What drives a platen. M dw/dt = Σ F − P A − c w with c = 2 ζ √(k M), k the stiffness of all its contacts.
 struct Drive {
-  double load = 0;          ///< P A, N
-  double mass = 0;          ///< M, kg, > 0
+  double load = 0;           ///< P A, N
+  double mass = 0;           ///< M, kg, > 0
   double damping_ratio = 0;  ///< ζ, of the platen on its contacts
-  double most_speed = 0;    ///< it never moves faster, m/s, > 0
+  double most_speed = 0;     ///< it never moves faster, m/s, > 0
 };
 
 /// One step of `step` seconds, implicit in the damping. `outward` is 1 where the sample lies below the platen
@@ -56,7 +58,8 @@ double stiffness_of_step(const Drive& drive, const Reaction& all, double step);
 class SizeTally {
  public:
   /// `bounds`: rising, m; none makes one class of all.
-  explicit SizeTally(std::vector<double> bounds = {}) : bounds_(std::move(bounds)), rows_(bounds_.size() + 1) {}
+  explicit SizeTally(std::vector<double> bounds = {})
+      : bounds_(std::move(bounds)), rows_(bounds_.size() + 1) {}
 
   struct Row {
     double grains = 0;

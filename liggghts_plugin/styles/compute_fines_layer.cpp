@@ -54,7 +54,8 @@ ComputeFinesLayer::ComputeFinesLayer(LAMMPS* lmp_in, int& iarg, int narg, char**
                                "add `split DIAMETER`: grains of a smaller diameter are the fines"});
   if (!bounded || grid_.column.high[grid_.axis] <= grid_.column.low[grid_.axis])
     suffuse::throw_user_error({who(), "bounds", bounded ? "not low end first" : "nothing",
-                               "be given, low end first", "add `bounds LO HI`, the heights (m) of the sample"});
+                               "be given, low end first",
+                               "add `bounds LO HI`, the heights (m) of the sample"});
   need_friction();
   declare_vector(kColumns - 1);
   declare_array(grid_.layers, kColumns);

@@ -16,8 +16,9 @@ ComputeStyle(fines/layer,ComputeFinesLayer)
 namespace LAMMPS_NS {
 
 /// `compute ID group fines/layer AXIS N split DIAMETER bounds LO HI [from top|bottom] [by
-/// contact_point|pair_halves] [tolerance T | appendix]`: what the fines of N layers along an axis are and carry
-/// (global array, one row a layer; global vector of the whole column). Formulas: micromechanics/layers.h.
+/// contact_point|pair_halves] [tolerance T | appendix]`: what the fines of N layers along an axis are and
+/// carry (global array, one row a layer; global vector of the whole column). Formulas:
+/// micromechanics/layers.h.
 class ComputeFinesLayer : public ContactCompute {
  public:
   ComputeFinesLayer(LAMMPS* lmp, int& iarg, int narg, char** arg);

@@ -27,7 +27,8 @@ namespace {
 
 constexpr const char* kWho = "fix loading/platen";
 constexpr const char* kChangeable = "stress, fixed, opening, speed";
-constexpr const char* kKeywords = "stress, fixed, opening, speed, collect, classes, mass, damping, area, type";
+constexpr const char* kKeywords =
+    "stress, fixed, opening, speed, collect, classes, mass, damping, area, type";
 /// Layout of the record in restart files: version, number of values behind these two, then the values.
 constexpr double kRecordVersion = 1;
 constexpr std::size_t kRecordHead = 2, kRecordFixed = 4;
@@ -47,8 +48,9 @@ std::vector<double> read_bounds(suffuse::ArgumentReader& reader) {
   while (reader.next_is_number()) {
     bounds.push_back(reader.positive("classes (m)"));
     if (bounds.back() <= bounds[bounds.size() - 2])
-      throw_user_error({kWho, "classes", fmt::format("{:g} after {:g}", bounds.back(), bounds[bounds.size() - 2]),
-                        "rise", "give the diameters between classes, smallest first"});
+      throw_user_error({kWho, "classes",
+                        fmt::format("{:g} after {:g}", bounds.back(), bounds[bounds.size() - 2]), "rise",
+                        "give the diameters between classes, smallest first"});
   }
   return bounds;
 }
@@ -92,7 +94,8 @@ bool FixLoadingPlaten::read_changeable(suffuse::ArgumentReader& reader) {
   const bool fixed = reader.keyword("fixed");
   if (fixed || reader.keyword("stress")) {
     if (loading_given_)
-      throw_user_error({reader.who(), "stress", "given together with fixed", "be given, or fixed", "drop one of the two"});
+      throw_user_error(
+          {reader.who(), "stress", "given together with fixed", "be given, or fixed", "drop one of the two"});
     loading_given_ = true;
     stress_ = fixed ? std::nullopt : std::optional(reader.positive("stress"));
   } else if (reader.keyword("opening"))
@@ -126,14 +129,16 @@ void FixLoadingPlaten::read_construction(suffuse::ArgumentReader& reader) {
 
 void FixLoadingPlaten::check_words() const {
   if (type_ > atom->ntypes)
-    throw_user_error({kWho, "type", std::to_string(type_), fmt::format("be one of the {} types", atom->ntypes),
+    throw_user_error({kWho, "type", std::to_string(type_),
+                      fmt::format("be one of the {} types", atom->ntypes),
                       "name the type whose material the platen has"});
   if (domain->periodicity[axis_] != 0)
-    throw_user_error({kWho, "boundary", fmt::format("periodic along {}", "xyz"[axis_]), "be fixed across a platen",
-                      "write `boundary` with f for this axis"});
+    throw_user_error({kWho, "boundary", fmt::format("periodic along {}", "xyz"[axis_]),
+                      "be fixed across a platen", "write `boundary` with f for this axis"});
   if (motion_.position < domain->boxlo[axis_] || motion_.position > domain->boxhi[axis_])
-    throw_user_error({kWho, "position", fmt::format("{:g}", motion_.position), "lie in the box",
-                      fmt::format("give one from {:g} to {:g} m", domain->boxlo[axis_], domain->boxhi[axis_])});
+    throw_user_error(
+        {kWho, "position", fmt::format("{:g}", motion_.position), "lie in the box",
+         fmt::format("give one from {:g} to {:g} m", domain->boxlo[axis_], domain->boxhi[axis_])});
   if (collect_ == 0 && passed_.classes() > 1)
     throw_user_error({kWho, "classes", "without collect", "go with `collect L`",
                       "add how far (m) beyond the platen grains are taken out of the box"});
@@ -150,7 +155,8 @@ void FixLoadingPlaten::post_create() {
 void FixLoadingPlaten::init() {
   suffuse::require_single_spheres(lmp, kWho);
   if (const auto law = suffuse::PairLaw::of(lmp, kWho); law.kind() != suffuse::PairLaw::Kind::hertz)
-    throw_user_error({kWho, "pair_style gran", law.name(), "be `model hertz`: the platen's contacts are Hertz's",
+    throw_user_error({kWho, "pair_style gran", law.name(),
+                      "be `model hertz`: the platen's contacts are Hertz's",
                       "write `pair_style gran model hertz tangential history`"});
   connect_materials();
   take_drive();
@@ -162,9 +168,10 @@ void FixLoadingPlaten::connect_materials() {
   auto& restitution = property(lmp, "coefficientRestitution", "peratomtypepair", atom->ntypes);
   materials_.clear();
   for (int type = 0; type < atom->ntypes; ++type)
-    materials_.push_back({platen::effective_modulus(modulus.compute_vector(type), ratio.compute_vector(type),
-                                                    modulus.compute_vector(type_ - 1), ratio.compute_vector(type_ - 1)),
-                          platen::damping_factor(restitution.compute_array(type, type_ - 1))});
+    materials_.push_back(
+        {platen::effective_modulus(modulus.compute_vector(type), ratio.compute_vector(type),
+                                   modulus.compute_vector(type_ - 1), ratio.compute_vector(type_ - 1)),
+         platen::damping_factor(restitution.compute_array(type, type_ - 1))});
 }
 
 double FixLoadingPlaten::area() const {
@@ -184,7 +191,8 @@ void FixLoadingPlaten::take_drive() {
   }
   const auto grains = suffuse::grain_statistics(lmp, groupbit);
   if (grains.count == 0 && (given_mass_ == 0 || given_speed_ == 0))
-    throw_user_error({kWho, "group", "without grains", "have grains, which the platen's mass and speed follow from",
+    throw_user_error({kWho, "group", "without grains",
+                      "have grains, which the platen's mass and speed follow from",
                       "insert them before the first run, or give `mass M` and `speed V`"});
   constexpr double share = 0.1, speed = 0.02;
   drive_.load = *stress_ * area();
@@ -272,14 +280,10 @@ double FixLoadingPlaten::compute_scalar() {
 /// a fixed one), contacts, grains that have passed and their mass (kg).
 double FixLoadingPlaten::compute_vector(int n) {
   const auto total = passed_.total();
-  const double values[] = {motion_.position,
-                           -outward_ * (motion_.position - reference_),
-                           -motion_.velocity,
-                           reaction_.force / area(),
-                           stress_.value_or(0),
-                           contacts_,
-                           total.grains,
-                           total.mass};
+  const double values[] = {motion_.position,    -outward_ * (motion_.position - reference_),
+                           -motion_.velocity,   reaction_.force / area(),
+                           stress_.value_or(0), contacts_,
+                           total.grains,        total.mass};
   return values[n];
 }
 
@@ -293,14 +297,12 @@ double FixLoadingPlaten::compute_array(int row, int column) {
 
 void FixLoadingPlaten::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  std::vector<double> record{kRecordVersion,
-                             static_cast<double>(kRecordFixed + 3 * passed_.classes()),
-                             motion_.position,
-                             motion_.velocity,
-                             reference_,
-                             static_cast<double>(passed_.classes())};
+  std::vector<double> record{kRecordVersion,   static_cast<double>(kRecordFixed + 3 * passed_.classes()),
+                             motion_.position, motion_.velocity,
+                             reference_,       static_cast<double>(passed_.classes())};
   for (std::size_t k = 0; k < passed_.classes(); ++k)
-    record.insert(record.end(), {compute_array(static_cast<int>(k), 0), passed_.row(k).grains, passed_.row(k).mass});
+    record.insert(record.end(),
+                  {compute_array(static_cast<int>(k), 0), passed_.row(k).grains, passed_.row(k).mass});
   const int size = static_cast<int>(record.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, file);
   fwrite(record.data(), sizeof(double), record.size(), file);
@@ -322,7 +324,8 @@ void FixLoadingPlaten::restart(char* buffer) {
   for (std::size_t k = 0; same && k < passed_.classes(); ++k)
     same = values[kRecordFixed + 3 * k] == compute_array(static_cast<int>(k), 0);
   if (!same && values[3] > 0 && (passed_.classes() > 1 || values[3] > 1))
-    throw_user_error({kWho, "classes", "other ones than in the restart file", "be the same", "take those of the run before"});
+    throw_user_error({kWho, "classes", "other ones than in the restart file", "be the same",
+                      "take those of the run before"});
   motion_ = {values[0], values[1]};
   reference_ = values[2];
   for (std::size_t k = 0; k < passed_.classes(); ++k)

@@ -22,14 +22,14 @@ class ArgumentReader;
 
 namespace LAMMPS_NS {
 
-/// `fix ID group loading/platen upper|lower xplane|yplane|zplane POSITION stress P | fixed [opening D] [collect L]
-/// [classes D1 D2 ...] [speed V] [mass M] [damping Z] [area A] [type T]`: a rigid, smooth, perforated plate that
-/// loads the grains of the group. Reference page: docs/reference/fix_loading_platen.md; physics:
-/// kernels/platen.h.
+/// `fix ID group loading/platen upper|lower xplane|yplane|zplane POSITION stress P | fixed [opening D]
+/// [collect L] [classes D1 D2 ...] [speed V] [mass M] [damping Z] [area A] [type T]`: a rigid, smooth,
+/// perforated plate that loads the grains of the group. Reference page: docs/reference/fix_loading_platen.md;
+/// physics: kernels/platen.h.
 ///
 /// Grains that have passed by `collect` are moved out of the box just before LIGGGHTS hands grains to their
-/// ranks, which drops them: contact histories and other fixes see the same grains until then, in whatever order
-/// the fixes stand.
+/// ranks, which drops them: contact histories and other fixes see the same grains until then, in whatever
+/// order the fixes stand.
 class FixLoadingPlaten : public Fix {
  public:
   FixLoadingPlaten(LAMMPS* lmp, int narg, char** arg);
@@ -62,10 +62,10 @@ class FixLoadingPlaten : public Fix {
 
   int axis_ = 2;
   double outward_ = 1;
-  std::optional<double> stress_;  // Pa; none: the platen is fixed
-  bool loading_given_ = false;    // in the line that is read
-  double opening_ = 0;            // m
-  double collect_ = 0;            // m; 0: grains that pass stay in the box
+  std::optional<double> stress_;                              // Pa; none: the platen is fixed
+  bool loading_given_ = false;                                // in the line that is read
+  double opening_ = 0;                                        // m
+  double collect_ = 0;                                        // m; 0: grains that pass stay in the box
   double given_speed_ = 0, given_mass_ = 0, given_area_ = 0;  // 0: chosen here
   int type_ = 1;
 
@@ -73,9 +73,9 @@ class FixLoadingPlaten : public Fix {
   suffuse::platen::Drive drive_;
   suffuse::platen::Reaction reaction_;  // of all contacts, all ranks
   double contacts_ = 0;
-  double reference_ = 0;                             // position that settlement counts from, m
+  double reference_ = 0;                              // position that settlement counts from, m
   std::vector<suffuse::platen::Material> materials_;  // by type of grain
-  suffuse::platen::SizeTally passed_;                // all ranks
+  suffuse::platen::SizeTally passed_;                 // all ranks
 };
 
 }  // namespace LAMMPS_NS

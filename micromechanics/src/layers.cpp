@@ -109,8 +109,8 @@ std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerG
 LayerFines layer_fines(const LayerSums& sums, const SlidingSums& contacts, double layer_volume) {
   LayerFines result;
   if (sums.solid_volume <= 0) return result;
-  const StressReduction reduction = stress_reduction(
-      {sums.fines_volume, sums.solid_volume, sums.fines_stress, sums.stress}, layer_volume);
+  const StressReduction reduction =
+      stress_reduction({sums.fines_volume, sums.solid_volume, sums.fines_stress, sums.stress}, layer_volume);
   Coordination mean;
   mean.mean = layer_state(sums, layer_volume).coordination;
   result.porosity = 1 - sums.solid_volume / layer_volume;

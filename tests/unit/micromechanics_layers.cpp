@@ -174,15 +174,17 @@ TEST_CASE("an empty layer has no void ratio") {
 }
 
 TEST_CASE("fines of a layer: their share, the stress they carry, coordination and constraints by hand") {
-  // Two layers of a simple cubic array of radius 1/2 pushed by F, with a fine grain in each cube's middle at the heights 1
-  // and 3: below it touches its eight corners by g, at their limit of friction; above it rattles.
+  // Two layers of a simple cubic array of radius 1/2 pushed by F, with a fine grain in each cube's middle at
+  // the heights 1 and 3: below it touches its eight corners by g, at their limit of friction; above it
+  // rattles.
   const double coarse = 0.5, fine = 0.3, force = 3, corner = 0.7, friction = 0.3;
   Packing packing = simple_cubic(4, coarse, push(force), friction);
   const std::size_t coarse_grains = packing.grains.size();
   for (int x = 0; x < 4; ++x)
     for (int y = 0; y < 4; ++y)
       for (const int z : {1, 3})
-        packing.grains.push_back(grain(static_cast<std::int64_t>(packing.grains.size()) + 1, fine, Vec3(x, y, z)));
+        packing.grains.push_back(
+            grain(static_cast<std::int64_t>(packing.grains.size()) + 1, fine, Vec3(x, y, z)));
   for (std::size_t i = coarse_grains; i < packing.grains.size(); ++i)
     for (std::size_t j = 0; j < coarse_grains && packing.grains[i].position.z() < 2; ++j) {
       Vec3 branch = packing.grains[i].position - packing.grains[j].position;
@@ -207,12 +209,14 @@ TEST_CASE("fines of a layer: their share, the stress they carry, coordination an
   }
   CHECK(above.coordination == Approx(32. * 6 / 48));
   CHECK(below.coordination == Approx((32. * 6 + 16 * 8 * 2) / 48));
-  // Traces: a coarse grain of the array 6 F/2, a fine one 8 g d/2 and as much again in its neighbours, d = √3/2.
+  // Traces: a coarse grain of the array 6 F/2, a fine one 8 g d/2 and as much again in its neighbours, d =
+  // √3/2.
   const double distance = std::sqrt(3.) / 2, of_fines = 16 * 4 * corner * distance;
   CHECK(below.sufian == Approx(of_fines / (32 * 3 * force + 2 * of_fines)));
   CHECK(below.shire == Approx(below.sufian / share));
   CHECK(above.sufian == 0);
-  // Of 96 contacts of the array a layer has 64 flat ones and 32 upright ones, those on a border the layer above it.
+  // Of 96 contacts of the array a layer has 64 flat ones and 32 upright ones, those on a border the layer
+  // above it.
   CHECK(above.sliding_share == 0);
   CHECK(below.sliding_share == Approx(128. / (96 + 128)));
   CHECK(below.constraint_ratio == Approx(below.coordination * (3 - 2 * below.sliding_share) / 12));

@@ -24,7 +24,8 @@ double force_of_pair(double overlap, double approach) {
   const double large = 1e9 * kRadius;
   const Material own = material();
   const grains::PairCoefficients pair{own.effective_modulus, 0, own.damping, 0, 0, 0};
-  // The large grain is the origin's: its centre costs no digits of the overlap if the small one's place is exact.
+  // The large grain is the origin's: its centre costs no digits of the overlap if the small one's place is
+  // exact.
   const grains::Quad position[] = {{0, 0, large + kRadius - overlap, kRadius}, {0, 0, 0, large}};
   const grains::Quad velocity[] = {{0, 0, -approach, 1 / kMass}, {0, 0, 0, 1e-30}};
   const grains::Quad spin[] = {{0, 0, 0, kRadius}, {0, 0, 0, large}};
@@ -38,8 +39,8 @@ double force_of_pair(double overlap, double approach) {
   grains::PassOutput output;
   output.loads = loads;
   output.owned = 2;
-  grains::reference_contact_pass({1, &first, &second, &second, &second, &spring}, {position, velocity, spin, nullptr},
-                                 settings, springs, output);
+  grains::reference_contact_pass({1, &first, &second, &second, &second, &spring},
+                                 {position, velocity, spin, nullptr}, settings, springs, output);
   return loads[0].force.z;
 }
 
@@ -66,7 +67,8 @@ TEST_CASE("a grain leaves a platen with the coefficient of restitution, and is n
       speed -= step * now.force / kMass;
       depth += step * speed;
     } while (depth > 0);
-    // Without the attraction at the end, with which the law's damping gives e, a grain keeps a little more: up to 0.075.
+    // Without the attraction at the end, with which the law's damping gives e, a grain keeps a little more:
+    // up to 0.075.
     CHECK(-speed / 0.1 > restitution - 1e-3);
     CHECK(-speed / 0.1 < restitution + (restitution < 1 ? 0.08 : 1e-3));
   }
