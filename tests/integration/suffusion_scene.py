@@ -78,6 +78,10 @@ def main():
                 expect(abs(part["applied_gradient"][-1] - 8) < 0.5, f"stages end at {part['applied_gradient'][-1]}")
             if name == "down":
                 expect(part["superficial_velocity_z_m_per_s"][-1] < 0 and part["base_stress_pa"][-1] > part["base_stress_pa"][0] + 20, "flow down")
+        # Between walls, a new sample.
+        (folder / "walls").mkdir()
+        program.run_scene(SCENE, folder / "walls", {**TINY, "sides": "f", "grains": 500, "aspect": 0.8, "rest_time": 0.005, "ramp_time": 0.01})
+        check_kept(folder / "walls", "walls")
         print(f"{program.ranks} ranks: {flow['eroded_fines_share'][-1]:.2f} of the fines washed out, none lost")
 
 
