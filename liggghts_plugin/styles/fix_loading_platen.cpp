@@ -132,9 +132,12 @@ void FixLoadingPlaten::check_words() const {
     throw_user_error({kWho, "type", std::to_string(type_),
                       fmt::format("be one of the {} types", atom->ntypes),
                       "name the type whose material the platen has"});
-  if (domain->periodicity[axis_] != 0)
-    throw_user_error({kWho, "boundary", fmt::format("periodic along {}", "xyz"[axis_]),
-                      "be fixed across a platen", "write `boundary` with f for this axis"});
+  constexpr int fixed_face = 1;  // LIGGGHTS: 0 periodic, 1 fixed, 2 and 3 shrink-wrapped
+  for (const int face : domain->boundary[axis_])
+    if (face != fixed_face)
+      throw_user_error({kWho, "boundary",
+                        fmt::format("{} along {}", face == 0 ? "periodic" : "shrink-wrapped", "xyz"[axis_]),
+                        "be fixed across a platen", "write `boundary` with f for this axis"});
   if (motion_.position < domain->boxlo[axis_] || motion_.position > domain->boxhi[axis_])
     throw_user_error(
         {kWho, "position", fmt::format("{:g}", motion_.position), "lie in the box",
@@ -323,7 +326,7 @@ void FixLoadingPlaten::restart(char* buffer) {
   bool same = static_cast<std::size_t>(values[3]) == passed_.classes();
   for (std::size_t k = 0; same && k < passed_.classes(); ++k)
     same = values[kRecordFixed + 3 * k] == compute_array(static_cast<int>(k), 0);
-  if (!same && values[3] > 0 && (passed_.classes() > 1 || values[3] > 1))
+  if (!same)
     throw_user_error({kWho, "classes", "other ones than in the restart file", "be the same",
                       "take those of the run before"});
   motion_ = {values[0], values[1]};
