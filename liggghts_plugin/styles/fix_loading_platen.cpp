@@ -17,6 +17,7 @@
 #include "pair_law.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/coordination.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -248,9 +249,11 @@ void FixLoadingPlaten::pre_exchange() {
                                       : 2 * domain->boxlo[axis_] - domain->boxhi[axis_];
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0 || beyond(atom->x[i][axis_]) <= collect_) continue;
-    const std::size_t at = 2 * passed_.class_of(2 * atom->radius[i]);
+    const double radius = atom->radius[i];
+    const std::size_t at = 2 * passed_.class_of(2 * radius);
     sums[at] += 1;
-    sums[at + 1] += atom->rmass[i];
+    sums[at + 1] +=
+        atom->density[i] * suffuse::micromechanics::sphere_volume(radius);  // true, whatever scales rmass
     atom->x[i][axis_] = outside;
   }
   suffuse::sum_over_ranks(lmp, sums);
