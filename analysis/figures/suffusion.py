@@ -101,7 +101,7 @@ def draw_grains(options):
         times = [float(group.attrs["time_s"]) for group in states]
         wanted = options.times or [times[0], times[-1]]
         chosen = [min(range(len(times)), key=lambda k: abs(times[k] - time)) for time in wanted]
-        figure, axes = style.plt.subplots(1, len(chosen), figsize=(style.width_of(options), 1.9 * style.width_of(options) / len(chosen)), sharey=True, squeeze=False)
+        figure, axes = style.plt.subplots(1, len(chosen), figsize=(style.width_of(options), 1.35 * style.width_of(options) / len(chosen) + 0.6), sharey=True, squeeze=False)
         for panel, which in zip(axes[0], chosen):
             position, radius = states[which]["grains/position"][:], states[which]["grains/radius"][:]
             draw_side(panel, position, radius, options.split)

@@ -21,7 +21,7 @@ STRESS, DENSITY, SPLIT = 100, 2650, 2.50324977e-4
 def masses(path):
     """Of a dump: fines below and above the middle of their sizes, coarse grains, kg."""
     sums = [0, 0, 0]
-    middle = math.sqrt(7.86013986e-5 * SPLIT)
+    middle = math.sqrt(0.55 * 7.86013986e-5 * SPLIT)
     for line in path.read_text().splitlines()[9:]:
         diameter = 2 * float(line.split()[5])
         sums[(diameter >= middle) + (diameter >= SPLIT)] += DENSITY * math.pi / 6 * diameter ** 3
