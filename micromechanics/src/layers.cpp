@@ -93,7 +93,10 @@ std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerG
   const double low = grid.column.low[grid.axis], high = grid.column.high[grid.axis];
   for (const Contact& contact : packing.contacts) {
     if (!is_counted(packing, contact)) continue;
-    const double middle = first_grain(packing, contact).position[grid.axis] - contact.branch[grid.axis] / 2;
+    double middle = first_grain(packing, contact).position[grid.axis] - contact.branch[grid.axis] / 2;
+    // Across a periodic face it depends on which grain is the first whether it lies in the box.
+    if (grid.period[grid.axis] > 0 && (middle < low || middle >= high))
+      middle += middle < low ? grid.period[grid.axis] : -grid.period[grid.axis];
     const double from_low = (middle - low) / (high - low) * grid.layers;
     if (!(from_low >= 0 && from_low < grid.layers)) continue;
     const int layer = static_cast<int>(from_low);
