@@ -44,6 +44,13 @@ def check_kept(folder, name):
     return flow
 
 
+def check_balance(folder, flow):
+    """What the lower platen loses in a gradient that is held, before grains leave, is the drop of head: 2 % for what still moves."""
+    thickness = float((folder / "layers.inc").read_text().split()[-1]) - 6 * 7.86013986e-5 / 2
+    drop, lost = 9810 * (flow["applied_gradient"][-1] - flow["applied_gradient"][0]) * thickness, flow["base_stress_pa"][0] - flow["base_stress_pa"][-1]
+    expect(abs(flow["applied_gradient"][-1] - 0.5) < 1e-6 and abs(lost / drop - 1) < 0.02, f"gradient {flow['applied_gradient'][-1]}: the lower platen loses {lost} Pa of {drop}")
+
+
 def main():
     program = program_from_command_line(__doc__)
     with scratch() as scratch_folder:
@@ -51,13 +58,9 @@ def main():
         program.run_scene(SCENE, folder, {**TINY, "save_every": 0.04})
         flow = check_kept(folder, "ramp")
         expect(flow["eroded_fines_share"][-1] > 0.3, f"only {flow['eroded_fines_share'][-1]} of the fines have left")
-        expect(max(abs(value / STRESS - 1) for value in flow["platen_stress_pa"]) < 0.01, "the platen's stress")
-        # The drop of pressure is taken off the lower platen. 10 %: in so short a ramp fines are being accelerated (0.2 % in a slow one).
-        with open(folder / "layers.inc") as file:
-            thickness = float(file.read().split()[-1]) - 6 * 7.86013986e-5 / 2
-        rows = [k for k, gradient in enumerate(flow["applied_gradient"]) if 1 < gradient < 3]
-        taken = sum((flow["base_stress_pa"][0] - flow["base_stress_pa"][k]) / (9810 * flow["applied_gradient"][k] * thickness) for k in rows) / len(rows)
-        expect(abs(taken - 1) < 0.1, f"taken off the lower platen: {taken} of the drop of pressure")
+        # Within 1 %, but for the instants at which the few coarse grains shift.
+        off = sorted(abs(value / STRESS - 1) for value in flow["platen_stress_pa"])
+        expect(off[int(0.9 * len(off))] < 0.01 and off[-1] < 0.1, f"the platen's stress is off by {off[-5:]}")
         sets = sorted((folder / name for name in ("water.h5.1", "water.h5.2")), key=lambda part: (part / "fluid.h5").stat().st_mtime_ns)
         program.run_scene(SCENE, folder, {**TINY, "begin": "continued", "restart": sets[0].name})
         continued = check_kept(folder, "continued")
@@ -66,7 +69,7 @@ def main():
             difference = max(abs(a - b) for a, b in zip(flow[name], continued[name]))
             expect(len(flow[name]) == len(continued[name]) and difference < tolerance, f"{name} differs by {difference}")
         short = {**TINY, "begin": "restart", "restart": folder / "consolidated.restart", "rest_time": 0.005}
-        for name, drive in (("stages", {"drive": "stages", "stage_ramp": 1e-3, "stage_hold": 1e-3}),
+        for name, drive in (("stages", {"drive": "stages", "largest_gradient": 0.5, "stage_ramp": 1e-3, "stage_hold": 4e-3}),
                             ("cyclic", {"drive": "cyclic", "cyclic_frequency": 100, "cyclic_cycles": 1.5, "cyclic_mean": 2, "cyclic_amplitude": 1}),
                             ("down", {"flow": "down", "ramp_time": 0.02})):
             (folder / name).mkdir()
@@ -75,7 +78,7 @@ def main():
             if name == "cyclic":
                 expect(abs(max(part["applied_gradient"]) - 3) < 0.1 and min(part["applied_gradient"][3:]) < 1.1, f"cyclic: {part['applied_gradient']}")
             if name == "stages":
-                expect(abs(part["applied_gradient"][-1] - 8) < 0.5, f"stages end at {part['applied_gradient'][-1]}")
+                check_balance(folder / name, part)
             if name == "down":
                 expect(part["superficial_velocity_z_m_per_s"][-1] < 0 and part["base_stress_pa"][-1] > part["base_stress_pa"][0] + 20, "flow down")
         # Between walls, a new sample.
