@@ -30,7 +30,7 @@ struct Options {
   std::size_t classes = 20;
   std::uint64_t seed = 32452867;
   double density = 2650;
-  std::optional<double> box_edge;
+  std::optional<double> box_edge, box_height;
   bool quiet = false, variables_only = false;
   OutputOptions outputs;
 };
@@ -62,6 +62,11 @@ void check(const Options& options) {
     must(*options.solid_fraction > 0 && *options.solid_fraction < 0.74, "--solid-fraction",
          *options.solid_fraction, "be between 0 and 0.74");
   if (options.box_edge) must(*options.box_edge > 0, "--box-edge", *options.box_edge, "be > 0", "in m");
+  if (options.box_height) {
+    must(*options.box_height > 0, "--box-height", *options.box_height, "be > 0", "in m");
+    if (!options.box_edge)
+      throw_user_error({kWho, "--box-height", "without --box-edge", "go with it", "give both, in m"});
+  }
   must(options.density > 0, "--density", options.density, "be > 0");
   must(options.coarse >= 1 && options.coarse <= 1e9, "--coarse", options.coarse, "be 1 to 1e9");
   must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
@@ -218,6 +223,7 @@ void run(const Options& options) {
   SampleScript script{"",
                       plan.sample,
                       plan.box_edge,
+                      options.box_height.value_or(0),
                       options.name,
                       named ? named->table_4_1 : "",
                       named ? named->table_5_1 : ""};
@@ -234,7 +240,8 @@ void run(const Options& options) {
   const std::string who = "sample --output";
   if (options.box_edge) {
     constexpr double least_share = 1e-6;
-    if (!(plan.sample.solids / std::pow(*options.box_edge, 3) > least_share))
+    const double volume = std::pow(*options.box_edge, 2) * options.box_height.value_or(*options.box_edge);
+    if (!(plan.sample.solids / volume > least_share))
       throw_user_error({kWho, "--box-edge", fmt::format("{:g} m", *options.box_edge),
                         fmt::format("be below {:.3g} m: the grains fill a millionth of such a cube",
                                     std::cbrt(plan.sample.solids / least_share)),
@@ -292,6 +299,7 @@ void add_sample(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--density", options->density, "of the grains, kg/m3")->capture_default_str();
   command->add_option("--box-edge", options->box_edge, "of the cube that the grains are placed in, m");
+  command->add_option("--box-height", options->box_height, "along z, of a column in place of a cube, m");
   options->outputs.add_overwrite(*command);
   command->add_flag("--variables-only", options->variables_only, "write STEM.inc only");
   command->add_flag("--quiet", options->quiet, "notes and warnings only");

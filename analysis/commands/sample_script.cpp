@@ -85,10 +85,12 @@ void write_sample_data(SafeFile& file, const SampleScript& script, double densit
   std::vector<double> diameters;
   for (std::size_t k = 0; k < numbers.size(); ++k)
     diameters.insert(diameters.end(), numbers[k], script.sample.classes[k].diameter);
-  const auto grains = micromechanics::place_at_random(diameters, script.box_edge, seed);
+  const Vec3 sides(script.box_edge, script.box_edge,
+                   script.box_height > 0 ? script.box_height : script.box_edge);
+  const auto grains = micromechanics::place_at_random(diameters, sides, seed);
   file.write(fmt::format("{}, seed {}\n\n{} atoms\n1 atom types\n", script.title, seed, grains.size()));
-  for (const char axis : {'x', 'y', 'z'})
-    file.write(fmt::format("0 {:.9g} {}lo {}hi\n", script.box_edge, axis, axis));
+  for (int axis = 0; axis < 3; ++axis)
+    file.write(fmt::format("0 {:.9g} {}lo {}hi\n", sides[axis], "xyz"[axis], "xyz"[axis]));
   file.write("\nAtoms\n\n");
   for (std::size_t k = 0; k < grains.size(); ++k)
     file.write(fmt::format("{} 1 {:.9g} {:.9g} {:.12g} {:.12g} {:.12g}\n", k + 1, grains[k].diameter, density,

@@ -13,6 +13,7 @@ struct SampleScript {
   std::string title;  ///< first line: what it is and how it was made
   micromechanics::GrainSample sample;
   double box_edge = 0;               ///< m, of the cube that the grains are placed in
+  double box_height = 0;             ///< m, along z where that is another; 0: a cube
   std::string name;                  ///< of the grading
   std::string table_4_1, table_5_1;  ///< its names in the thesis's tables; may be empty
 };

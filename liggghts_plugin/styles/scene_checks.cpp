@@ -66,7 +66,7 @@ std::int64_t inserted_so_far(LAMMPS* lmp) {
 
 bool some_fix_removes_grains(LAMMPS* lmp) {
   for (int i = 0; i < lmp->modify->nfix; ++i)
-    for (const char* word : {"massflow", "remove", "break", "evaporate"})
+    for (const char* word : {"massflow", "remove", "break", "evaporate", "loading/platen"})
       if (std::string_view(lmp->modify->fix[i]->style).find(word) != std::string_view::npos) return true;
   return false;
 }

@@ -11,7 +11,15 @@ double hertz_overlap(const HertzPair& pair, double normal_force) {
 }
 
 double hertz_tangent_stiffness(const HertzPair& pair, double normal_force) {
-  return 2 * pair.effective_modulus * std::sqrt(pair.effective_radius * hertz_overlap(pair, normal_force));
+  return hertz_stiffness_at(pair, hertz_overlap(pair, normal_force));
+}
+
+double hertz_force(const HertzPair& pair, double overlap) {
+  return 2. / 3 * hertz_stiffness_at(pair, overlap) * overlap;
+}
+
+double hertz_stiffness_at(const HertzPair& pair, double overlap) {
+  return 2 * pair.effective_modulus * std::sqrt(pair.effective_radius * overlap);
 }
 
 double mean_contact_force(double diameter, const PackingState& state) {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "suffuse/micromechanics/coordination.h"
+#include "suffuse/micromechanics/constraint_ratio.h"
+#include "suffuse/micromechanics/stress_reduction.h"
 
 namespace suffuse::micromechanics {
 namespace {
@@ -56,7 +57,8 @@ Box LayerGrid::layer_box(int layer) const {
   return box;
 }
 
-std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid, GrainArm arm) {
+std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid, GrainArm arm,
+                                  SizeSplit split) {
   std::vector<LayerSums> layers(static_cast<std::size_t>(grid.layers));
   std::vector<Box> boxes;
   for (int layer = 0; layer < grid.layers; ++layer) boxes.push_back(grid.layer_box(layer));
@@ -76,15 +78,52 @@ std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid,
         layers[layer].grains += share;
         layers[layer].contacts += share * contacts[i];
         if (contacts[i] >= 4) layers[layer].stable += share;
+        if (!split.is_fine(grain.radius)) continue;
+        layers[layer].fines_volume += share * sphere_volume(grain.radius);
+        layers[layer].fines_stress.add(share * stress[i]);
       }
     }
   }
   return layers;
 }
 
-std::span<double> as_doubles(std::vector<LayerSums>& layers) {
-  static_assert(AdditiveSums<LayerSums>);
-  return {reinterpret_cast<double*>(layers.data()), layers.size() * sizeof(LayerSums) / sizeof(double)};
+std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerGrid& grid,
+                                            const SlidingRule& rule) {
+  std::vector<Packing> parts(static_cast<std::size_t>(grid.layers));
+  const double low = grid.column.low[grid.axis], high = grid.column.high[grid.axis];
+  for (const Contact& contact : packing.contacts) {
+    if (!is_counted(packing, contact)) continue;
+    double middle = first_grain(packing, contact).position[grid.axis] - contact.branch[grid.axis] / 2;
+    // Across a periodic face it depends on which grain is the first whether it lies in the box.
+    if (grid.period[grid.axis] > 0 && (middle < low || middle >= high))
+      middle += middle < low ? grid.period[grid.axis] : -grid.period[grid.axis];
+    const double from_low = (middle - low) / (high - low) * grid.layers;
+    if (!(from_low >= 0 && from_low < grid.layers)) continue;
+    const int layer = static_cast<int>(from_low);
+    auto& part = parts[static_cast<std::size_t>(grid.numbered_from_top ? grid.layers - 1 - layer : layer)];
+    part.contacts.push_back(contact);
+    part.contacts.back().second = 0;  // counted here, whoever owns the second grain
+  }
+  std::vector<SlidingSums> sums;
+  for (const Packing& part : parts) sums.push_back(sliding_sums(part, rule));
+  return sums;
+}
+
+LayerFines layer_fines(const LayerSums& sums, const SlidingSums& contacts, double layer_volume) {
+  LayerFines result;
+  if (sums.solid_volume <= 0) return result;
+  const StressReduction reduction =
+      stress_reduction({sums.fines_volume, sums.solid_volume, sums.fines_stress, sums.stress}, layer_volume);
+  Coordination mean;
+  mean.mean = layer_state(sums, layer_volume).coordination;
+  result.porosity = 1 - sums.solid_volume / layer_volume;
+  result.fines_share = reduction.fines_solid_share;
+  result.coordination = mean.mean;
+  result.shire = reduction.shire;
+  result.sufian = reduction.sufian;
+  result.sliding_share = sliding(contacts).share;
+  result.constraint_ratio = constraint_ratio(mean, result.sliding_share).mean;
+  return result;
 }
 
 LayerState layer_state(const LayerSums& sums, double layer_volume) {

@@ -172,3 +172,53 @@ TEST_CASE("an empty layer has no void ratio") {
   CHECK(state.coordination == 0);
   CHECK(state.stress.norm() == 0);
 }
+
+TEST_CASE("fines of a layer: their share, the stress they carry, coordination and constraints by hand") {
+  // Two layers of a simple cubic array of radius 1/2 pushed by F, with a fine grain in each cube's middle at
+  // the heights 1 and 3: below it touches its eight corners by g, at their limit of friction; above it
+  // rattles.
+  const double coarse = 0.5, fine = 0.3, force = 3, corner = 0.7, friction = 0.3;
+  Packing packing = simple_cubic(4, coarse, push(force), friction);
+  const std::size_t coarse_grains = packing.grains.size();
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 4; ++y)
+      for (const int z : {1, 3})
+        packing.grains.push_back(
+            grain(static_cast<std::int64_t>(packing.grains.size()) + 1, fine, Vec3(x, y, z)));
+  for (std::size_t i = coarse_grains; i < packing.grains.size(); ++i)
+    for (std::size_t j = 0; j < coarse_grains && packing.grains[i].position.z() < 2; ++j) {
+      Vec3 branch = packing.grains[i].position - packing.grains[j].position;
+      for (int axis = 0; axis < 3; ++axis) branch[axis] -= 4 * std::round(branch[axis] / 4);
+      if (branch.norm() > 0.9) continue;
+      const Vec3 normal = branch.normalized(), along = Vec3(normal.y(), -normal.x(), 0).normalized();
+      packing.contacts.push_back(
+          {static_cast<int>(i), static_cast<int>(j), branch, corner * (normal + friction * along), friction});
+    }
+  LayerGrid grid = grid_over(4, 2);
+  grid.cut = {false, false, false};
+  const auto grains = layer_sums(packing, grid, GrainArm::pair_halves, {2 * 0.4});
+  const auto contacts = layer_sliding_sums(packing, grid, {});
+  const LayerFines above = layer_fines(grains[0], contacts[0], grid.layer_volume());
+  const LayerFines below = layer_fines(grains[1], contacts[1], grid.layer_volume());
+
+  const double solids = 32 * sphere_volume(coarse) + 16 * sphere_volume(fine);
+  const double share = 16 * sphere_volume(fine) / solids;
+  for (const LayerFines& layer : {above, below}) {
+    CHECK(layer.fines_share == Approx(share));
+    CHECK(layer.porosity == Approx(1 - solids / 32));
+  }
+  CHECK(above.coordination == Approx(32. * 6 / 48));
+  CHECK(below.coordination == Approx((32. * 6 + 16 * 8 * 2) / 48));
+  // Traces: a coarse grain of the array 6 F/2, a fine one 8 g d/2 and as much again in its neighbours, d =
+  // √3/2.
+  const double distance = std::sqrt(3.) / 2, of_fines = 16 * 4 * corner * distance;
+  CHECK(below.sufian == Approx(of_fines / (32 * 3 * force + 2 * of_fines)));
+  CHECK(below.shire == Approx(below.sufian / share));
+  CHECK(above.sufian == 0);
+  // Of 96 contacts of the array a layer has 64 flat ones and 32 upright ones, those on a border the layer
+  // above it.
+  CHECK(above.sliding_share == 0);
+  CHECK(below.sliding_share == Approx(128. / (96 + 128)));
+  CHECK(below.constraint_ratio == Approx(below.coordination * (3 - 2 * below.sliding_share) / 12));
+  CHECK(above.constraint_ratio == Approx(1));
+}

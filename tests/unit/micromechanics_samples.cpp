@@ -151,25 +151,26 @@ TEST_CASE(
   double solids = 0;
   for (const double d : diameters) solids += 3.14159265358979 / 6 * d * d * d;
   const double edge = std::cbrt(solids / 0.4);
-  const auto grains = place_at_random(diameters, edge, 7);
+  const Vec3 sides = GENERATE(Vec3(1, 1, 1), Vec3(0.7, 0.8, 1 / 0.56)) * edge;  // a cube, and a column
+  const auto grains = place_at_random(diameters, sides, 7);
   REQUIRE(grains.size() == diameters.size());
   double nearest = 1;
   for (std::size_t i = 0; i < grains.size(); ++i)
     for (std::size_t j = i + 1; j < grains.size(); ++j) {
       Vec3 apart = grains[i].centre - grains[j].centre;
-      for (int axis = 0; axis < 3; ++axis) apart[axis] -= edge * std::round(apart[axis] / edge);
+      for (int axis = 0; axis < 3; ++axis) apart[axis] -= sides[axis] * std::round(apart[axis] / sides[axis]);
       nearest = std::min(nearest, apart.norm() - (grains[i].diameter + grains[j].diameter) / 2);
     }
   CHECK(nearest > 0);
-  const auto again = place_at_random(diameters, edge, 7), other = place_at_random(diameters, edge, 8);
+  const auto again = place_at_random(diameters, sides, 7), other = place_at_random(diameters, sides, 8);
   CHECK(again.back().centre == grains.back().centre);
   CHECK(other.back().centre != grains.back().centre);
-  // Uniform: the mean of so many centres is the middle, within four standard errors of edge/sqrt(12 n).
+  // Uniform: the mean of so many centres is the middle, within four standard errors of side/sqrt(12 n).
   Vec3 mean = Vec3::Zero();
   for (const PlacedGrain& grain : grains) mean += grain.centre / static_cast<double>(grains.size());
-  CHECK((mean / edge - Vec3::Constant(0.5)).cwiseAbs().maxCoeff() <
+  CHECK((mean.cwiseQuotient(sides) - Vec3::Constant(0.5)).cwiseAbs().maxCoeff() <
         4 / std::sqrt(12.0 * static_cast<double>(grains.size())));
-  CHECK_THROWS_AS(place_at_random(std::vector<double>{1e-3}, 0.9e-3, 1), UserError);
+  CHECK_THROWS_AS(place_at_random(std::vector<double>{1e-3}, Vec3(1, 0.9e-3, 1), 1), UserError);
   // A grain as wide as a third of the box, in which no cell is left out.
-  CHECK(place_at_random(std::vector<double>(8, 1e-3), 2.9e-3, 3).size() == 8);
+  CHECK(place_at_random(std::vector<double>(8, 1e-3), Vec3::Constant(2.9e-3), 3).size() == 8);
 }

@@ -25,6 +25,7 @@ compute i50 all inertial/number diameter d50 rate 0.1
 compute l all stress/layer z 4
 compute lt all stress/layer x 3 trim 3e-4 share volume from bottom by pair_halves
 compute lc all stress/layer y 5 share centre
+compute lf all fines/layer z 4 split {SPLIT} bounds 0 4e-3
 region half block INF INF INF INF 0 2.1e-3 units box
 group lower region half
 compute zg lower coordination split {SPLIT}
@@ -33,9 +34,9 @@ compute p all reduce sum c_peratom[1] c_peratom[2] c_peratom[3] c_peratom[4] c_p
 compute g all reduce sum c_ap[1] c_ap[2] c_ap[3] c_ap[4] c_ap[5] c_ap[6]
 compute gh all reduce sum c_ah[1] c_ah[2] c_ah[3] c_ah[4] c_ah[5] c_ah[6]
 """
-VECTORS = {"z": 17, "ap": 8, "ah": 8, "r": 6, "s": 4, "f": 14, "st": 6, "b": 6, "i": 5, "i50": 5, "l": 5, "lt": 5, "lc": 5,
+VECTORS = {"z": 17, "ap": 8, "ah": 8, "r": 6, "s": 4, "f": 14, "st": 6, "b": 6, "i": 5, "i50": 5, "l": 5, "lt": 5, "lc": 5, "lf": 7,
            "zg": 17, "p": 6, "g": 6, "gh": 6}
-ARRAYS = {"l": (4, 12), "lt": (3, 12), "lc": (5, 12), "f": (36, 7)}
+ARRAYS = {"l": (4, 12), "lt": (3, 12), "lc": (5, 12), "lf": (4, 8), "f": (36, 7)}
 WORDS = [f"c_{name}[{k + 1}]" for name, n in VECTORS.items() for k in range(n)] + \
     [f"c_{name}[{i + 1}][{j + 1}]" for name, (rows, columns) in ARRAYS.items() for i in range(rows) for j in range(columns)] + \
     ["vol"]

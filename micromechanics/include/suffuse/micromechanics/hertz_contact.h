@@ -14,6 +14,12 @@ double hertz_overlap(const HertzPair& pair, double normal_force);
 /// Tangent stiffness dF/dδ = 2E*√(R*δ) at a normal force (eq 3.12), N/m.
 double hertz_tangent_stiffness(const HertzPair& pair, double normal_force);
 
+/// Force 4/3 E*√(R*δ) δ at an overlap δ ≥ 0 (m), N.
+double hertz_force(const HertzPair& pair, double overlap);
+
+/// Tangent stiffness 2E*√(R*δ) at an overlap δ ≥ 0 (m), N/m.
+double hertz_stiffness_at(const HertzPair& pair, double overlap);
+
 /// State of a packing of equal spheres.
 struct PackingState {
   double mean_stress = 0;     ///< p', Pa

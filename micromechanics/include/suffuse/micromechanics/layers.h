@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "suffuse/micromechanics/contact_network.h"
+#include "suffuse/micromechanics/coordination.h"
+#include "suffuse/micromechanics/slipping.h"
 #include "suffuse/micromechanics/sphere_cut.h"
 #include "suffuse/micromechanics/stress.h"
 #include "suffuse/micromechanics/sums.h"
@@ -40,13 +42,18 @@ struct LayerSums {
   double grains = 0;        ///< Σ share
   double contacts = 0;      ///< Σ share × contacts of the grain
   double stable = 0;        ///< Σ share over grains with four or more contacts
+  double fines_volume = 0;  ///< solid volume of the fines, m³
+  TensorSum fines_stress;   ///< Σ σ^p V_p × share over the fines, N·m
 };
 
-/// One entry a layer; contiguous, so that the whole vector can be reduced as doubles.
-std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid, GrainArm arm);
+/// One entry a layer. Without a split no grain is a fine one.
+std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid, GrainArm arm,
+                                  SizeSplit split = {});
 
-/// All layers as one row of doubles.
-std::span<double> as_doubles(std::vector<LayerSums>& layers);
+/// What one rank's contacts add to the layers that the middles between their grains lie in. The grid's side
+/// faces do not cut.
+std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerGrid& grid,
+                                            const SlidingRule& rule);
 
 /// State of a layer (thesis eqs 6.3–6.5). Void ratio and coordination are 0 in a layer without solids.
 struct LayerState {
@@ -58,6 +65,19 @@ struct LayerState {
 };
 
 LayerState layer_state(const LayerSums& sums, double layer_volume);
+
+/// What fines are and do in a layer. All 0 without solids.
+struct LayerFines {
+  double porosity = 0;
+  double fines_share = 0;       ///< of the solids' volume
+  double coordination = 0;      ///< Z of all grains of the layer
+  double shire = 0;             ///< α of the layer (stress_reduction.h)
+  double sufian = 0;            ///< share of the layer's mean stress that its fines carry
+  double sliding_share = 0;     ///< S_c
+  double constraint_ratio = 0;  ///< R = Z(3 − 2S_c)/12 (eq 6.7)
+};
+
+LayerFines layer_fines(const LayerSums& sums, const SlidingSums& contacts, double layer_volume);
 
 /// S² = Σ(e_k − e_avg)²/(n_L − 1) (thesis eq 6.1; `jiang2003`), e_avg the void ratio of the whole sample. 0
 /// for fewer than two layers.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "suffuse/common/linear_algebra.h"
 
@@ -41,6 +42,12 @@ concept AdditiveSums = std::is_standard_layout_v<Sums> && std::is_trivially_copy
 template <AdditiveSums Sums>
 std::span<double> as_doubles(Sums& sums) {
   return {reinterpret_cast<double*>(&sums), sizeof(Sums) / sizeof(double)};
+}
+
+/// Sums of several parts, such as layers, as one row of doubles.
+template <AdditiveSums Sums>
+std::span<double> as_doubles(std::vector<Sums>& parts) {
+  return {reinterpret_cast<double*>(parts.data()), parts.size() * sizeof(Sums) / sizeof(double)};
 }
 
 /// Adds the sums of another part of the packing, as MPI_SUM would.
