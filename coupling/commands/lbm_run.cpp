@@ -68,17 +68,16 @@ std::string LbmRun::details() const {
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
   const double done = static_cast<double>(simulation_.fluid().steps() - first_);
   return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6, lbm::health_text(extremes_));
+                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6, simulation_.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {
   // Before anything is written, too: nothing of a flow that is lost.
   if (step % kCheckEvery != 0 && step != last_ && step != first_ && !output_.due(step)) return;
-  extremes_ = simulation_.fluid().extremes();
+  extremes_ = simulation_.extremes();
   refuse_grains_behind_walls(simulation_);
   if (grains_ > 0) fastest_grain_ = std::max(fastest_grain_, port_.summary().speed);
-  lbm::require_stable(extremes_, simulation_.units(), simulation_.time_si(), settings_.largest_mach,
-                      "lbm run");
+  simulation_.require_stable(extremes_, settings_.largest_mach, "lbm run");
 }
 
 /// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
@@ -190,6 +189,7 @@ std::optional<std::string> LbmRun::drag_note() const {
   const lbm::CollisionSettings& collision = simulation_.fluid().settings().collision;
   const lbm::Units& units = simulation_.units();
   const double speed = fastest_grain_ * units.spacing() / units.viscosity_si();
+  if (simulation_.method() != nullptr) return std::nullopt;
   if (speed < kFastGrains || collision.collision_operator != lbm::CollisionOperator::trt) return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "

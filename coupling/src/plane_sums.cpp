@@ -32,9 +32,9 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   std::vector<Sums> sums(static_cast<std::size_t>(d.cells()[along]) + 1, Sums{});
   Totals totals{};
   double extremes[3] = {0, -1e300, -1e300};  // squared speed, density, -density
-  fluid.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
+  simulation.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
     const double open = 1 - solid_fraction;
-    const Vec3 solid = simulation.mapping().solid_flux(cell);
+    const Vec3 solid = simulation.solid_flux(cell);
     Sums& plane = sums[static_cast<std::size_t>(cell[along])];
     for (int a = 0; a < 3; ++a) {
       plane.flux[a] += point.velocity[a];
@@ -43,7 +43,10 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
     plane.room += fluid.is_closed(cell) ? 0 : 1;
     plane.open += open;
     plane.pressure += open * (point.density - 1);
-    const double speed_squared = point.velocity.squaredNorm();
+    // Means of a cell that grains share hold their flux: the water's own speed is that of the rest.
+    const Vec3 water = simulation.method() != nullptr && open > 0 ? Vec3((point.velocity - solid) / open)
+                                                                  : point.velocity;
+    const double speed_squared = water.squaredNorm();
     totals.mass += open * point.density;
     totals.energy += open * point.density * speed_squared;
     totals.stored += point.density - 1;
