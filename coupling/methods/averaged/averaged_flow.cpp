@@ -33,6 +33,25 @@ double own_share(double phi) {
   return e * e * e * e / (1 + 4 * p + 4 * p * p - 4 * p * p * p + p * p * p * p);
 }
 
+/// A grain that pushes the water feels its own push in the mean velocity of the cells around it, as if spread
+/// over a sphere of this radius, in cells: z has to make up for it. In creeping flow u_self = F/(6 pi mu a).
+/// The radius is that for which a sphere in a periodic box has Hasimoto's drag (docs key: hasimoto1959), the
+/// decrease with the Reynolds number of the cell that for which lone spheres settle at the standard velocity.
+/// Other grains screen the push, as Brinkman's medium does that of a sphere of this radius.
+constexpr double kOwnPushRadius = 0.886, kOwnPushDecay = 0.33;
+
+/// z of a grain from `drag`, that of the closure; `share` of own_share, `resistance` of the grains in a volume,
+/// kg/(m^3 s).
+double drag_of_mean_velocity(double drag, double share, double mu, double spacing, double cell_reynolds,
+                             double resistance) {
+  const double radius = kOwnPushRadius * spacing, screens = radius * std::sqrt(resistance / mu);
+  const double push = share * drag /
+                      (6 * std::numbers::pi * mu * radius * (1 + kOwnPushDecay * cell_reynolds) *
+                       (1 + screens + screens * screens / 9));
+  constexpr double most = 0.5;
+  return drag / (1 - std::min(push, most));
+}
+
 class AveragedFlow final : public WaterMethod {
  public:
   explicit AveragedFlow(const AveragedFlowSetup& setup);
@@ -222,7 +241,8 @@ void AveragedFlow::find_drag() {
     });
     const double mean_diameter = setup_.closures.graded ? phi / over_diameter : g.diameter;
     own *= g.volume / cell_volume_;
-    phi = std::max(0., phi - own_share(phi) * own);
+    const double share = own_share(phi - own);
+    phi = std::max(0., phi - share * own);
     Vec3 slip;
     for (std::size_t a = 0; a < 3; ++a)
       slip[static_cast<Eigen::Index>(a)] =
@@ -230,7 +250,9 @@ void AveragedFlow::find_drag() {
     const double reynolds = (1 - phi) * slip.norm() * mean_diameter / setup_.viscosity;
     const double factor =
         graded_drag_factor(setup_.closures.drag, phi, reynolds, g.diameter / mean_diameter);
-    g.drag = 3 * std::numbers::pi * mu_ * g.diameter * (1 - phi) * factor;
+    const double drag = 3 * std::numbers::pi * mu_ * g.diameter * (1 - phi) * factor;
+    g.drag = drag_of_mean_velocity(drag, share, mu_, setup_.spacing,
+                                   slip.norm() * setup_.spacing / setup_.viscosity, drag * phi / g.volume);
   }
 }
 

@@ -29,7 +29,7 @@ double drag_factor(DragLaw law, double solid_fraction, double reynolds);
 ///
 /// (docs key: beetstra2007, eq for y; van der Hoef's key: vanderhoef2005). The published weight multiplies
 /// all of F and is not divided: then neither equal spheres nor a lone sphere have their own drag back. In beds
-/// (phi > 0.4) the two differ by less than 4 %.
+/// (phi > 0.4) the two differ by less than 5 %.
 double graded_drag_factor(DragLaw law, double solid_fraction, double mean_reynolds, double size_ratio);
 
 }  // namespace suffuse::coupling
