@@ -19,10 +19,12 @@ class ExactSums {
     if (largest > 0 && std::isfinite(largest)) std::frexp(largest, &exponent);
     int grain_bits = 0;
     while ((1L << grain_bits) < grains + 1) ++grain_bits;
-    shift_ = 61 - grain_bits - exponent;
+    const int shift = 61 - grain_bits - exponent;
+    scale_ = std::ldexp(1., shift);
+    unit_ = std::ldexp(1., -shift);
   }
 
-  void add(std::size_t at, double value) { counts_[at] += std::llround(std::ldexp(value, shift_)); }
+  void add(std::size_t at, double value) { counts_[at] += std::llrint(value * scale_); }
 
   /// Sums over all ranks, times `factor`. Collective.
   void finish(MPI_Comm communicator, double factor, std::vector<double>& result) {
@@ -30,11 +32,11 @@ class ExactSums {
                   communicator);
     result.resize(counts_.size());
     for (std::size_t n = 0; n < counts_.size(); ++n)
-      result[n] = factor * std::ldexp(static_cast<double>(counts_[n]), -shift_);
+      result[n] = factor * (unit_ * static_cast<double>(counts_[n]));
   }
 
  private:
-  int shift_ = 0;
+  double scale_ = 1, unit_ = 1;
   std::vector<std::int64_t> counts_;
 };
 
