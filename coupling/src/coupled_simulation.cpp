@@ -442,11 +442,8 @@ void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
     if (wet) force -= displaced * gravity;
     torque.setZero();
     double* h = memory.history + kHistoryLength * n;
-    Eigen::Map<Vec3> velocity_before(h + history::velocity), acceleration(h + history::acceleration);
-    const Vec3 velocity = vector_at(grains.velocity, n);
-    if (h[history::known] != 0)
-      acceleration += kPredictionRate * ((velocity - velocity_before) / units_.time_step() - acceleration);
-    velocity_before = velocity;
+    // Added inertia resists: an acceleration on the other side would lag and feed the contacts' vibrations.
+    for (int a = 0; a < 3; ++a) h[history::acceleration + a] = h[history::angular_acceleration + a] = 0;
     const double added = settings_.virtual_mass ? *settings_.virtual_mass * displaced
                                                 : method_->virtual_masses()[grain];
     h[history::virtual_mass] = wet ? added : 0;

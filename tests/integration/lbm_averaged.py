@@ -89,6 +89,21 @@ def check_expansion(program, folder):
     expect(heights[0] < heights[1] < heights[2], f"centres of the bed {heights}")
 
 
+def check_step(program, folder):
+    """A settled bed below its critical gradient stays at rest, whatever the fluid's step: drag and the water's inertia act with the
+    delay of a step, which must not feed the contacts' vibrations."""
+    flows = []
+    for step in (4e-4, 4e-5):
+        text = water(4e-3).replace("timestep 4e-4", f"timestep {step}")
+        run(program, folder, bed("start") + text + "thermo 100000\nlbm run 0.08\n", 1)
+        flow = columns(folder / "flow.csv")
+        flows.append(sum(flow["solid_force_z_n"][-5:]) / 5)
+        energy, height = flow["grains_kinetic_energy_j"][-1], flow["bed_height_m"]
+        expect(energy < 1e-10, f"a bed at rest has {energy} J with steps of {step} s")
+        expect(abs(height[-1] / height[0] - 1) < 0.01, f"a bed at rest rises from {height[0]} to {height[-1]} m with steps of {step} s")
+    expect(abs(flows[0] / flows[1] - 1) < 0.01, f"loads at two steps {flows}")
+
+
 def check_ranks_and_restart(program, folder):
     """Held grains in a rising flow: contacts, which LIGGGHTS sums in another order on other ranks, play no part."""
     held = "velocity all set 0 0 0\nset group all omegax 0 omegay 0 omegaz 0\nthermo 100000\n"
@@ -130,6 +145,7 @@ def main():
         run(program, folder, bed() + INSERT, 1)
         if program.ranks == 1:
             check_expansion(program, folder)
+            check_step(program, folder)
             check_refusals(program, folder)
         check_ranks_and_restart(program, folder)
 

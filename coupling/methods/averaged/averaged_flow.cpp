@@ -52,6 +52,18 @@ double drag_of_mean_velocity(double drag, double share, double mu, double spacin
   return drag / (1 - std::min(push, most));
 }
 
+/// Loads are constant over a step and answer a change of a grain's velocity in the next. Water that cannot but
+/// stream back past the grains makes their drag 1/e^2 times as large, and has the inertia rho V phi/e. With
+/// shares b = drag x step and c of that inertia of the grain's own, the motion is stable for b + 2 c < 2; what
+/// is added here leaves 1.4. It is added to the inertia alone: weight, drag at rest and terminal velocities
+/// stay, and a grain that would follow the water within a step does so within some.
+double inertia_for_step(const PlacedGrain& grain, double e, const AveragedFlowSetup& setup) {
+  constexpr double leave = 1.4;
+  const double drag = grain.drag / (e * e) * setup.time_step;
+  const double water = setup.density * grain.volume * (1 - e) / e;
+  return std::max(0., (drag + 2 * water) / leave - grain.mass);
+}
+
 class AveragedFlow final : public WaterMethod {
  public:
   explicit AveragedFlow(const AveragedFlowSetup& setup);
@@ -169,6 +181,7 @@ void AveragedFlow::read(const GrainArrays& grains) {
     }
     g.diameter = 2 * grains.radius[n];
     g.volume = sphere_volume(grains.radius[n]);
+    g.mass = grains.mass[n];
     wet += g.wet ? 1 : 0;
   }
   MPI_Allreduce(&wet, &all_grains_, 1, MPI_LONG, MPI_SUM, setup_.communicator);
@@ -393,11 +406,7 @@ void AveragedFlow::hand_over() {
       forces_[n][axis] = g.drag * (at_grain(g, a, mean_velocity_[a]) - g.velocity[axis]) +
                          g.volume * at_grain(g, a, mean_stress_[a]);
     }
-    // In a closed box water streams back past the grains that move: their velocity comes to bear 1/e^2
-    // times, and that water has to be accelerated.
-    e = std::max(e, 0.2);
-    virtual_masses_[n] = 1.5 * g.drag / (e * e) * setup_.time_step +
-                         setup_.density * g.volume * (1 - e) / (e * e);
+    virtual_masses_[n] = inertia_for_step(g, std::max(e, 0.2), setup_);
   }
 }
 

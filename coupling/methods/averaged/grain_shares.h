@@ -13,7 +13,7 @@ namespace suffuse::coupling::averaged {
 struct PlacedGrain {
   bool wet = false;  ///< its centre lies in the box
   std::array<AxisShares, 3> axes;
-  double diameter = 0, volume = 0;
+  double diameter = 0, volume = 0, mass = 0;
   Vec3 velocity = Vec3::Zero();
   double drag = 0;  ///< z, N s/m
 };

@@ -47,8 +47,8 @@ class WaterMethod {
 
   /// What the water did to each owned grain in the last step, N, without its buoyancy by gravity.
   virtual const std::vector<Vec3>& forces() const = 0;
-  /// Inertia (kg) to be moved on both sides of a grain's equation of motion, so that loads that are constant
-  /// over a step cannot drive it past the water.
+  /// Inertia (kg) to be added to a grain's own, so that loads that are constant over a step cannot drive it
+  /// past the water; none where the step is short enough.
   virtual const std::vector<double>& virtual_masses() const = 0;
   /// Is a grain in the water? Those beyond faces that are not periodic are dry.
   virtual bool is_wet(std::size_t grain) const = 0;
