@@ -62,7 +62,8 @@ Result run(const Case& c, CoupledSettings settings, int cells, int interval) {
     list.push_back(g);
   }
   const double start = core_seconds();
-  PrescribedGrains grains(list, kEdge * Vec3::Ones(), {true, true, true}, lbm::Units(settings.units).time_step());
+  PrescribedGrains grains(list, kEdge * Vec3::Ones(), {true, true, true},
+                          lbm::Units(settings.units).time_step());
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {cells, cells, cells}),
                                Vec3::Zero(), grains);
   simulation.map();
@@ -154,8 +155,8 @@ void compare(const std::string& name, const std::string& references, double fine
     print(name, "formula_" + law.word, formula(c, law.law), reference, finest);
   for (const int cells : {1, 2})
     if (1 / (cells * c.diameter) >= 1.5)
-      print(name, "averaged_beetstra_" + std::to_string(cells) + "_cells", averaged(c, DragLaw::beetstra, cells),
-            reference, finest);
+      print(name, "averaged_beetstra_" + std::to_string(cells) + "_cells",
+            averaged(c, DragLaw::beetstra, cells), reference, finest);
   for (const int diameter : {2, 3, 4, 5, 8, 10})
     for (const bool single : {false, true})
       print(name, "resolved_" + std::to_string(diameter) + (single ? "_float" : "_double"),
@@ -167,7 +168,8 @@ void compare(const std::string& name, const std::string& references, double fine
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Errors of drag, of the force on each grain, and core seconds of every way to compute the water");
+  CLI::App app(
+      "Errors of drag, of the force on each grain, and core seconds of every way to compute the water");
   std::vector<std::string> packings{"random:0.58:64:21", "appendix_c:0.6:11"};
   std::string references = "tests/data/packing_drags.csv";
   double finest = 14;

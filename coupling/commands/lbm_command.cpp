@@ -91,8 +91,8 @@ void require_cells_of_grains(double spacing, const LiggghtsPort::Summary& grains
   constexpr double least = 1.5, rounding = 1e-9;
   if (grains.grains > 0 && spacing < least * grains.sauter_diameter * (1 - rounding))
     throw_user_error({"lbm lattice", "spacing", fmt::format("{:g} m", spacing),
-                      fmt::format("be at least {:g} mean diameters, {:.3g} m, with `lbm method averaged`", least,
-                                  least * grains.sauter_diameter),
+                      fmt::format("be at least {:g} mean diameters, {:.3g} m, with `lbm method averaged`",
+                                  least, least * grains.sauter_diameter),
                       fmt::format("about three, {:.2g} m, is usual", 3 * grains.sauter_diameter)});
 }
 
@@ -123,16 +123,17 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "method, preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, output, "
+      "method, preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, monitor, "
+      "output, "
       "plan, "
       "run, "
       "restart, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
-      {"method", read_method},       {"preset", read_preset}, {"fluid", read_fluid}, {"lattice", read_lattice},
-      {"collision", read_collision}, {"solid", read_solid}, {"walls", read_walls},
-      {"effect", read_effect}};
+      {"method", read_method},   {"preset", read_preset},       {"fluid", read_fluid},
+      {"lattice", read_lattice}, {"collision", read_collision}, {"solid", read_solid},
+      {"walls", read_walls},     {"effect", read_effect}};
   if (const auto reading = before_start.find(word); reading != before_start.end()) {
     refuse_after_start(word);
     reading->second(reader, settings_);

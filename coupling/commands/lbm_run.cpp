@@ -68,7 +68,8 @@ std::string LbmRun::details() const {
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
   const double done = static_cast<double>(simulation_.fluid().steps() - first_);
   return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6, simulation_.health_text(extremes_));
+                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6,
+                     simulation_.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {

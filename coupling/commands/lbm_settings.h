@@ -52,7 +52,7 @@ struct LbmSettings {
   CoupledSettings coupled;
   bool fluid_given = false, lattice_given = false;
   std::vector<std::string> resolved_words;  ///< lines given that only the resolved flow knows
-  std::string region;  ///< of the fluid; empty: LIGGGHTS's box
+  std::string region;                       ///< of the fluid; empty: LIGGGHTS's box
   std::array<ScriptFace, lbm::kFaces> faces;
   ScriptVector gravity, pressure_gradient;
   WallSettings walls;

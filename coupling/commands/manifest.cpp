@@ -102,11 +102,12 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
     lines.push_back(fmt::format("water       {} x {} x {} cells on {}, {}", cells[0], cells[1], cells[2],
                                 count_text(fluid.decomposition().ranks(), "rank"), method->summary()));
   else
-    lines.push_back(fmt::format("lattice     {} x {} x {} cells on {}, {}, {} kernels, {}{}", cells[0], cells[1], cells[2],
-                  count_text(fluid.decomposition().ranks(), "rank"), name_of(collision.collision_operator),
-                  name_of(fluid.instruction_set()),
-                  fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
-                  collision.incompressible ? ", incompressible" : ""));
+    lines.push_back(
+        fmt::format("lattice     {} x {} x {} cells on {}, {}, {} kernels, {}{}", cells[0], cells[1],
+                    cells[2], count_text(fluid.decomposition().ranks(), "rank"),
+                    name_of(collision.collision_operator), name_of(fluid.instruction_set()),
+                    fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
+                    collision.incompressible ? ", incompressible" : ""));
   lines.push_back("            " + units.summary());
   lines.push_back("faces       " + faces_text(fluid.settings().faces));
   lines.insert(lines.end(), walls.begin(), walls.end());
@@ -114,7 +115,8 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                                                       : grains_text_in_cells(grains, units.spacing())));
   if (const std::string bed = bed_text(simulation, grains); method == nullptr && !bed.empty())
     lines.push_back(bed);
-  if (grains.grains > 0 && method == nullptr) lines.push_back("solids      " + solids_text(simulation.settings().solids));
+  if (grains.grains > 0 && method == nullptr)
+    lines.push_back("solids      " + solids_text(simulation.settings().solids));
   lines.push_back(fmt::format("coupling    {} of {:.4g} s a fluid step{}",
                               count_text(simulation.substeps(), "DEM step"),
                               units.time_step() / simulation.substeps(),
@@ -163,9 +165,9 @@ std::string time_table(CoupledSimulation& simulation, long steps, double grain_s
                         duration_text(wall), (parts[0] + parts[2]) / std::max(parts[3], 1e-9));
   else
     text += fmt::format("{} in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
-                      count_text(steps, "step"), duration_text(wall),
-                      all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
-                      100 * bare * count / std::max(parts[0], 1e-9));
+                        count_text(steps, "step"), duration_text(wall),
+                        all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
+                        100 * bare * count / std::max(parts[0], 1e-9));
   if (grain_steps > 0)
     text +=
         fmt::format("; grains {:.2f} M grain steps a second", grain_steps / std::max(parts[3], 1e-9) * 1e-6);

@@ -168,6 +168,10 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     fields.solid_fraction = [&simulation](const lbm::Index3& cell) {
       return simulation.solid_fraction(cell);
     };
+    if (simulation.method() != nullptr &&
+        std::count(fields.fields.begin(), fields.fields.end(), lbm::Field::density) > 0)
+      throw_user_error({"lbm output " + request.id, "density", "asked for",
+                        "not be a field of the averaged flow, whose density is constant", "take pressure"});
     if (simulation.method() != nullptr)
       fields.for_each_point = [&simulation](const lbm::Fluid::PointVisitor& visit) {
         simulation.for_each_point(visit);

@@ -7,8 +7,8 @@
 #include <cstring>
 
 #include "suffuse/common/error.h"
-#include "suffuse/coupling/methods/averaged_flow.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/coupling/methods/averaged_flow.h"
 #include "suffuse/coupling/virtual_mass.h"
 #include "suffuse/lbm/health.h"
 
@@ -444,8 +444,8 @@ void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
     double* h = memory.history + kHistoryLength * n;
     // Added inertia resists: an acceleration on the other side would lag and feed the contacts' vibrations.
     for (int a = 0; a < 3; ++a) h[history::acceleration + a] = h[history::angular_acceleration + a] = 0;
-    const double added = settings_.virtual_mass ? *settings_.virtual_mass * displaced
-                                                : method_->virtual_masses()[grain];
+    const double added =
+        settings_.virtual_mass ? *settings_.virtual_mass * displaced : method_->virtual_masses()[grain];
     h[history::virtual_mass] = wet ? added : 0;
     h[history::virtual_moment] = 0;
     h[history::known] = 1;

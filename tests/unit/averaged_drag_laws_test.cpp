@@ -52,7 +52,8 @@ TEST_CASE("Closures have the published values") {
   CHECK(drag_factor(DragLaw::di_felice, 0.5, 100) ==
         Approx(1.2321 * 100 / 24 * std::pow(2., 3.126379)).epsilon(1e-5));
   // The two fits of direct simulations agree within what their authors state, 10 %.
-  CHECK(drag_factor(DragLaw::tang, 0.5, 100) == Approx(drag_factor(DragLaw::beetstra, 0.5, 100)).epsilon(0.15));
+  CHECK(drag_factor(DragLaw::tang, 0.5, 100) ==
+        Approx(drag_factor(DragLaw::beetstra, 0.5, 100)).epsilon(0.15));
 }
 
 TEST_CASE("Unequal spheres share the drag by their size") {
@@ -61,12 +62,13 @@ TEST_CASE("Unequal spheres share the drag by their size") {
       CHECK(graded_drag_factor(entry.law, phi, 1, 1) == Approx(drag_factor(entry.law, phi, 1)));
   // A lone sphere knows no mean size.
   CHECK(graded_drag_factor(DragLaw::beetstra, 0, 1, 3) == Approx(drag_factor(DragLaw::beetstra, 0, 3)));
-  // Two sizes of equal volume, y = 2/3 and 2 (Sauter mean 1 of d = 0.75 and ... ): what all of them receive is
-  // what equal spheres of the Sauter size would: sum of x F/y^2 = F, to 4 % of the term 0.064.
+  // Two sizes of equal volume, y = 2/3 and 2 (Sauter mean 1 of d = 0.75 and ... ): what all of them receive
+  // is what equal spheres of the Sauter size would: sum of x F/y^2 = F, to 4 % of the term 0.064.
   const double y1 = 2. / 3, y2 = 2, phi = 0.6;  // x/y adds up to 1: 0.5/y1 + 0.5/y2 = 1
   const auto graded = [&](double y) { return graded_drag_factor(DragLaw::beetstra, phi, 0, y) / (y * y); };
   CHECK(0.5 * graded(y1) + 0.5 * graded(y2) == Approx(drag_factor(DragLaw::beetstra, phi, 0)).epsilon(0.04));
   // As published to 5 % in a bed.
-  const double published = (0.4 * y2 + 0.6 * y2 * y2 + 0.064 * 0.4 * 8) * drag_factor(DragLaw::beetstra, phi, 0);
+  const double published =
+      (0.4 * y2 + 0.6 * y2 * y2 + 0.064 * 0.4 * 8) * drag_factor(DragLaw::beetstra, phi, 0);
   CHECK(graded_drag_factor(DragLaw::beetstra, phi, 0, y2) == Approx(published).epsilon(0.05));
 }

@@ -58,12 +58,13 @@ std::vector<PrescribedGrains::Grain> mine(const std::vector<PrescribedGrains::Gr
 
 struct Run {
   Run(const Scene& scene, const std::vector<PrescribedGrains::Grain>& all)
-      : grains(mine(all), box_of(scene),
-               {scene.faces[0].kind == lbm::FaceKind::periodic, scene.faces[2].kind == lbm::FaceKind::periodic,
-                scene.faces[4].kind == lbm::FaceKind::periodic},
-               scene.time_step),
-        simulation(settings_of(scene), lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells), Vec3::Zero(),
-                   grains) {}
+      : grains(
+            mine(all), box_of(scene),
+            {scene.faces[0].kind == lbm::FaceKind::periodic, scene.faces[2].kind == lbm::FaceKind::periodic,
+             scene.faces[4].kind == lbm::FaceKind::periodic},
+            scene.time_step),
+        simulation(settings_of(scene), lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells),
+                   Vec3::Zero(), grains) {}
   void steps(int count) {
     for (int n = 0; n < count; ++n) simulation.step();
   }
@@ -241,8 +242,8 @@ TEST_CASE("A lone grain settles at the standard curve's velocity") {
     for (const int diameters : {2, 3}) {
       const double d = 1e-3, excess = 1650 * 9.81 * std::numbers::pi / 6 * d * d * d;
       // 3 pi mu d U (1 + 0.15 Re^0.687) = excess, U = Re nu/d
-      const double nu =
-          std::sqrt(excess / (3 * std::numbers::pi * kDensity * reynolds * (1 + 0.15 * std::pow(reynolds, 0.687))));
+      const double nu = std::sqrt(
+          excess / (3 * std::numbers::pi * kDensity * reynolds * (1 + 0.15 * std::pow(reynolds, 0.687))));
       const double speed = reynolds * nu / d;
       Scene scene;
       scene.drag = DragLaw::gidaspow;  // Schiller and Naumann's for a lone sphere
@@ -275,8 +276,8 @@ TEST_CASE("A lone grain settles at the standard curve's velocity") {
 }
 
 TEST_CASE("A lone sphere in a periodic box has Hasimoto's drag wherever it lies in its cell") {
-  // What it pushes itself is taken out of the mean velocity; without, the drag is 15 to 40 % too small. Of the
-  // place in the cell there remain 2 % at three diameters a cell, 6 % at one and a half.
+  // What it pushes itself is taken out of the mean velocity; without, the drag is 15 to 40 % too small. Of
+  // the place in the cell there remain 2 % at three diameters a cell, 6 % at one and a half.
   for (const double diameters : {1.5, 3.})
     for (const double place : {0., 0.5}) {
       Scene scene;

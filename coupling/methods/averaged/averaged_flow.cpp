@@ -40,8 +40,8 @@ double own_share(double phi) {
 /// Other grains screen the push, as Brinkman's medium does that of a sphere of this radius.
 constexpr double kOwnPushRadius = 0.886, kOwnPushDecay = 0.33;
 
-/// z of a grain from `drag`, that of the closure; `share` of own_share, `resistance` of the grains in a volume,
-/// kg/(m^3 s).
+/// z of a grain from `drag`, that of the closure; `share` of own_share, `resistance` of the grains in a
+/// volume, kg/(m^3 s).
 double drag_of_mean_velocity(double drag, double share, double mu, double spacing, double cell_reynolds,
                              double resistance) {
   const double radius = kOwnPushRadius * spacing, screens = radius * std::sqrt(resistance / mu);
@@ -52,11 +52,11 @@ double drag_of_mean_velocity(double drag, double share, double mu, double spacin
   return drag / (1 - std::min(push, most));
 }
 
-/// Loads are constant over a step and answer a change of a grain's velocity in the next. Water that cannot but
-/// stream back past the grains makes their drag 1/e^2 times as large, and has the inertia rho V phi/e. With
-/// shares b = drag x step and c of that inertia of the grain's own, the motion is stable for b + 2 c < 2; what
-/// is added here leaves 1.4. It is added to the inertia alone: weight, drag at rest and terminal velocities
-/// stay, and a grain that would follow the water within a step does so within some.
+/// Loads are constant over a step and answer a change of a grain's velocity in the next. Water that cannot
+/// but stream back past the grains makes their drag 1/e^2 times as large, and has the inertia rho V phi/e.
+/// With shares b = drag x step and c of that inertia of the grain's own, the motion is stable for b + 2 c <
+/// 2; what is added here leaves 1.4. It is added to the inertia alone: weight, drag at rest and terminal
+/// velocities stay, and a grain that would follow the water within a step does so within some.
 double inertia_for_step(const PlacedGrain& grain, double e, const AveragedFlowSetup& setup) {
   constexpr double leave = 1.4;
   const double drag = grain.drag / (e * e) * setup.time_step;
@@ -225,14 +225,16 @@ void AveragedFlow::deposit_volumes() {
     });
   }
   if (least < kLeastPorosity)
-    throw_user_error({"lbm method averaged", "grains", fmt::format("leaving {:.2g} of a cell to the water", least),
+    throw_user_error({"lbm method averaged", "grains",
+                      fmt::format("leaving {:.2g} of a cell to the water", least),
                       fmt::format("leave at least {:g}", kLeastPorosity),
                       "take a larger `lbm lattice spacing`: about three mean diameters"});
 }
 
 void AveragedFlow::refresh_velocity() {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    for (std::size_t n = 0; n < flux_[axis].size(); ++n) velocity_[axis][n] = flux_[axis][n] / porosity_[axis][n];
+    for (std::size_t n = 0; n < flux_[axis].size(); ++n)
+      velocity_[axis][n] = flux_[axis][n] / porosity_[axis][n];
 }
 
 template <class Values>
@@ -261,8 +263,7 @@ void AveragedFlow::find_drag() {
       slip[static_cast<Eigen::Index>(a)] =
           at_grain(g, a, velocity_[a]) - g.velocity[static_cast<Eigen::Index>(a)];
     const double reynolds = (1 - phi) * slip.norm() * mean_diameter / setup_.viscosity;
-    const double factor =
-        graded_drag_factor(setup_.closures.drag, phi, reynolds, g.diameter / mean_diameter);
+    const double factor = graded_drag_factor(setup_.closures.drag, phi, reynolds, g.diameter / mean_diameter);
     const double drag = 3 * std::numbers::pi * mu_ * g.diameter * (1 - phi) * factor;
     g.drag = drag_of_mean_velocity(drag, share, mu_, setup_.spacing,
                                    slip.norm() * setup_.spacing / setup_.viscosity, drag * phi / g.volume);
@@ -367,13 +368,14 @@ void AveragedFlow::advance(double time_step) {
       const double e = porosity_[axis][n];
       if (is_given(axis, at)) {
         const WaterFace& face = box_face(setup_.faces, axis, grid_.side(axis, at));
-        next[axis][n] = face.kind == lbm::FaceKind::velocity ? face.velocity[static_cast<Eigen::Index>(axis)] : 0;
+        next[axis][n] =
+            face.kind == lbm::FaceKind::velocity ? face.velocity[static_cast<Eigen::Index>(axis)] : 0;
         conductance_[axis][n] = 0;
         return;
       }
       stress_[axis][n] = stress(axis, at, n);
-      const double momentum = rho * (flux_[axis][n] / time_step - inertia(axis, at, n)) + e * stress_[axis][n] +
-                              drag_velocity_[axis][n];
+      const double momentum = rho * (flux_[axis][n] / time_step - inertia(axis, at, n)) +
+                              e * stress_[axis][n] + drag_velocity_[axis][n];
       const double resistance = rho * e / time_step + drag_[axis][n];
       next[axis][n] = e * momentum / resistance;
       conductance_[axis][n] = e * e / resistance;
@@ -389,7 +391,8 @@ void AveragedFlow::advance(double time_step) {
       flux_[axis][n] = next[axis][n];
       velocity_[axis][n] = flux_[axis][n] / porosity_[axis][n];
       if (is_given(axis, at))  // what would drive the flux that is given
-        stress_[axis][n] = (drag_[axis][n] * velocity_[axis][n] - drag_velocity_[axis][n]) / porosity_[axis][n];
+        stress_[axis][n] =
+            (drag_[axis][n] * velocity_[axis][n] - drag_velocity_[axis][n]) / porosity_[axis][n];
     });
 }
 

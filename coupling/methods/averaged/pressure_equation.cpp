@@ -54,7 +54,8 @@ void PressureEquation::solve(const FaceValues& flux, const FaceValues& solid_flu
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid_.for_each_face(axis, [&](const Index3& at, std::size_t n) {
       const auto [low, high] = grid_.cells_beside(axis, at);
-      const auto l = static_cast<Eigen::Index>(grid_.cell(low)), h = static_cast<Eigen::Index>(grid_.cell(high));
+      const auto l = static_cast<Eigen::Index>(grid_.cell(low)),
+                 h = static_cast<Eigen::Index>(grid_.cell(high));
       const int side = grid_.side(axis, at);
       const double through = (flux[axis][n] + solid_flux[axis][n]) / spacing_;
       const double k = conductance[axis][n] / (spacing_ * spacing_);

@@ -68,8 +68,8 @@ class StaggeredGrid {
   }
   static std::size_t at_in(const Index3& at, int nx, int ny) {
     return static_cast<std::size_t>(at[0]) +
-           static_cast<std::size_t>(nx) *
-               (static_cast<std::size_t>(at[1]) + static_cast<std::size_t>(ny) * static_cast<std::size_t>(at[2]));
+           static_cast<std::size_t>(nx) * (static_cast<std::size_t>(at[1]) +
+                                           static_cast<std::size_t>(ny) * static_cast<std::size_t>(at[2]));
   }
 
   Index3 cells_;

@@ -28,8 +28,8 @@ double drag_factor(DragLaw law, double solid_fraction, double reynolds);
 ///   (e y + phi y^2 + 0.064 e y^3)/(1 + 0.064 e),   e = 1 - phi
 ///
 /// (docs key: beetstra2007, eq for y; van der Hoef's key: vanderhoef2005). The published weight multiplies
-/// all of F and is not divided: then neither equal spheres nor a lone sphere have their own drag back. In beds
-/// (phi > 0.4) the two differ by less than 5 %.
+/// all of F and is not divided: then neither equal spheres nor a lone sphere have their own drag back. In
+/// beds (phi > 0.4) the two differ by less than 5 %.
 double graded_drag_factor(DragLaw law, double solid_fraction, double mean_reynolds, double size_ratio);
 
 }  // namespace suffuse::coupling
