@@ -13,6 +13,7 @@ namespace {
 constexpr const char* kSettings = "/settings";
 constexpr const char* kReferences = "/monitor_references";
 constexpr const char* kPoreCoefficients = "/pore_coefficients";
+constexpr const char* kMethod = "/method";
 constexpr const char* kWalls = "/walls";
 constexpr const char* kActingWalls = "/walls/acting";  ///< a text, character by character
 constexpr const char* kClosedCells = "/walls/closed_cells";
@@ -72,6 +73,10 @@ std::vector<Setting> settings_of(const CoupledSimulation& simulation) {
   for (int a = 0; a < 3; ++a)
     settings.push_back({"lattice", fmt::format("low corner along {}", "xyz"[a]),
                         fmt::format("{:.6g} cells", simulation.origin()[a] / units.spacing())});
+  if (const auto& averaged = simulation.settings().averaged) {
+    settings.push_back({"method", "averaged drag", name_of(averaged->drag)});
+    settings.push_back({"method", "averaged graded", averaged->graded ? "yes" : "no"});
+  }
   return settings;
 }
 
@@ -89,6 +94,11 @@ void save_settings(Hdf5File& file, const CoupledSimulation& simulation) {
 
 bool require_same_settings(const std::string& path, const CoupledSimulation& simulation) {
   const Hdf5File file(path, Hdf5File::Mode::read, simulation.fluid().decomposition().communicator());
+  const bool averaged = simulation.settings().averaged.has_value();
+  if (file.exists(kMethod) != averaged)
+    throw_user_error({"lbm restart read " + path, "method", averaged ? "averaged" : "resolved",
+                      averaged ? "be resolved, as it was saved" : "be averaged, as it was saved",
+                      "write the same `lbm method`"});
   if (!file.exists(kSettings)) return false;
   for (const Setting& setting : settings_of(simulation)) {
     const std::string saved = file.text_attribute(kSettings, key(setting));
@@ -147,6 +157,27 @@ std::optional<std::vector<std::uint8_t>> load_closed_cells(const std::string& pa
   const ArrayPart cells = lbm::cells_of(decomposition);
   if (file.extents(kClosedCells) != cells.whole) return std::nullopt;
   return file.read<std::uint8_t>(kClosedCells, cells);
+}
+
+void save_method(Hdf5File& file, const CoupledSimulation& simulation) {
+  if (simulation.method() == nullptr) return;
+  file.create_group(kMethod);
+  const bool mine = simulation.fluid().decomposition().rank() == 0;  // the same on all ranks
+  for (const auto& [name, values] : simulation.method()->state()) {
+    const std::string array = fmt::format("{}/{}", kMethod, name);
+    file.create_array<double>(array, {values->size()});
+    file.write(array, {{values->size()}, {0}, {mine ? values->size() : 0}},
+               mine ? *values : std::vector<double>{});
+  }
+}
+
+void load_method(const std::string& path, CoupledSimulation& simulation) {
+  if (simulation.method() == nullptr) return;
+  const Hdf5File file(path, Hdf5File::Mode::read, simulation.fluid().decomposition().communicator());
+  for (const auto& [name, values] : simulation.method()->state()) {
+    const std::size_t size = values->size();
+    *values = file.read<double>(fmt::format("{}/{}", kMethod, name), {{size}, {0}, {size}});
+  }
 }
 
 void save_references(Hdf5File& file, const MonitorReferences& references, MPI_Comm communicator) {

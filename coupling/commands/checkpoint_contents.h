@@ -42,4 +42,9 @@ bool require_same_settings(const std::string& path, const CoupledSimulation& sim
 /// None if the file has none. Collective.
 MonitorReferences load_references(const std::string& path, MPI_Comm communicator);
 
+/// What a method of its own for the water (water_method.h) keeps, and back. A UserError if the state was
+/// saved with another one. Collective.
+void save_method(Hdf5File& file, const CoupledSimulation& simulation);
+void load_method(const std::string& path, CoupledSimulation& simulation);
+
 }  // namespace suffuse::coupling

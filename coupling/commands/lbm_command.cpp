@@ -46,6 +46,48 @@ void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   instance->line(narg, arg);
 }
 
+/// The averaged flow knows drag and pressure only. A UserError if more was asked for.
+void without_resolved_effects(const EffectSettings& asked, EffectSettings& effects,
+                              std::vector<EffectChoice>& choices) {
+  const std::map<std::string, std::pair<Switch, Switch*>> unknown{
+      {"turbulence", {asked.turbulence, &effects.turbulence}},
+      {"lubrication", {asked.lubrication, &effects.lubrication}},
+      {"rotation", {Switch::automatic, &effects.rotation}}};
+  for (EffectChoice& choice : choices) {
+    const auto found = unknown.find(choice.name);
+    if (found == unknown.end()) continue;
+    if (found->second.first == Switch::on)
+      throw_user_error({"lbm effect", choice.name, "on", "be off or auto with `lbm method averaged`",
+                        "only the resolved flow has it"});
+    *found->second.second = Switch::off;
+    choice = {choice.name, false, "the averaged flow has none"};
+  }
+}
+
+/// Closures are means over several grains.
+void require_cells_of_grains(double spacing, const LiggghtsPort::Summary& grains) {
+  constexpr double least = 1.5, rounding = 1e-9;
+  if (grains.grains > 0 && spacing < least * grains.sauter_diameter * (1 - rounding))
+    throw_user_error({"lbm lattice", "spacing", fmt::format("{:g} m", spacing),
+                      fmt::format("be at least {:g} mean diameters, {:.3g} m, with `lbm method averaged`",
+                                  least, least * grains.sauter_diameter),
+                      fmt::format("about three, {:.2g} m, is usual", 3 * grains.sauter_diameter)});
+}
+
+/// Words of the script that the averaged flow does not use; empty if there are none.
+std::string unused_words_note(const LbmSettings& settings) {
+  if (!settings.coupled.averaged) return "";
+  std::vector<std::string> words;
+  for (const std::string& word : settings.resolved_words) words.push_back("lbm " + word);
+  if (settings.coupled.fluid.precision != lbm::Precision::double_precision)
+    words.emplace_back("precision float");
+  if (settings.coupled.average_force) words.emplace_back("average_force yes");
+  if (words.empty()) return "";
+  std::sort(words.begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return fmt::format("lbm method averaged: note: not used: {}\n", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 void LbmCommand::add_to(LAMMPS_NS::LAMMPS* lmp) {
@@ -60,17 +102,19 @@ void LbmCommand::remove_from(LAMMPS_NS::LAMMPS* lmp) {
 
 void LbmCommand::line(int narg, char** arg) {
   static const char* known =
-      "preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, monitor, "
+      "method, preset, fluid, lattice, boundary, force, collision, solid, walls, effect, couple, guard, "
+      "monitor, "
       "output, plan, accuracy, run, restart, stop, clear";
   const std::string word = narg > 0 ? arg[0] : "";
   ArgumentReader reader("lbm " + word, narg, arg, 1);
   const std::map<std::string, void (*)(ArgumentReader&, LbmSettings&)> before_start{
-      {"preset", read_preset},       {"fluid", read_fluid}, {"lattice", read_lattice},
-      {"collision", read_collision}, {"solid", read_solid}, {"walls", read_walls},
-      {"effect", read_effect}};
+      {"method", read_method},   {"preset", read_preset},       {"fluid", read_fluid},
+      {"lattice", read_lattice}, {"collision", read_collision}, {"solid", read_solid},
+      {"walls", read_walls},     {"effect", read_effect}};
   if (const auto reading = before_start.find(word); reading != before_start.end()) {
     refuse_after_start(word);
     reading->second(reader, settings_);
+    if (word == "preset" || word == "collision" || word == "solid") settings_.resolved_words.push_back(word);
   } else if (word == "boundary") {
     read_boundary(reader, lmp_, settings_);
   } else if (word == "force") {
@@ -190,6 +234,10 @@ CoupledSettings LbmCommand::resolved_settings(std::vector<EffectChoice>& effects
   facts.gravity = settings_.gravity.is_zero() ? 0 : std::max(coupled.gravity.norm(), 1e-300);
   facts.grains_move = grains.grains > 0 && port_->anything_moves();
   effects = choose_effects(coupled.effects, facts, units);
+  if (coupled.averaged) {
+    without_resolved_effects(settings_.coupled.effects, coupled.effects, effects);
+    require_cells_of_grains(units.spacing(), grains);
+  }
   if (coupled.effects.turbulence == Switch::on) coupled.fluid.collision.smagorinsky = settings_.smagorinsky;
   return coupled;
 }
@@ -208,6 +256,7 @@ void LbmCommand::build() {
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
   coupled.substeps = choose_substeps();
+  if (const std::string note = unused_words_note(settings_); !note.empty()) tell(lmp_, note);
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
   require_walls(lmp_, settings_.walls.open);
   walls_.follow(lmp_, settings_.walls, *port_, *simulation_, state_to_read_);
@@ -232,6 +281,7 @@ void LbmCommand::read_state() {
   if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_)))
     simulation_->continue_loads();
   load_pore_coefficients(state_to_read_, *simulation_);
+  load_method(state_to_read_, *simulation_);
   output_.set_references(load_references(state_to_read_, lmp_->world));
   continued_at_ = simulation_->time_si();
 }

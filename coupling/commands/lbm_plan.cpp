@@ -110,6 +110,7 @@ std::string scene_text(const CoupledSettings& settings, const lbm::Units& units,
   if (grains.grains == 0) return text;
   text += fmt::format("lbm plan: {}, {}\n", count_text(grains.grains, "grain"),
                       sizes_text(grains, units.spacing()));
+  if (settings.averaged) return text;
   text += error_line(settings.solids, fine / units.spacing());
   const std::string note = resolution_note(grains, units.spacing());
   return note.empty() ? text : text + "lbm plan: note: " + note + "\n";

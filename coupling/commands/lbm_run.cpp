@@ -76,7 +76,8 @@ std::string LbmRun::details() const {
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
   const double done = static_cast<double>(simulation_.fluid().steps() - first_);
   return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6, lbm::health_text(extremes_));
+                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6,
+                     simulation_.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {
@@ -84,11 +85,12 @@ void LbmRun::check(long step) {
   const long every = near_limit_ ? kCheckNearLimitEvery : kCheckEvery;
   if (step % every != 0 && step != last_ && step != first_ && !output_.due(step)) return;
   const PlaneSums* sums = output_.sample_now(step, simulation_);
-  extremes_ = sums != nullptr ? sums->extremes : simulation_.fluid().extremes();
+  const bool resolved = simulation_.method() == nullptr;
+  extremes_ = sums != nullptr && resolved ? sums->extremes : simulation_.extremes();
   refuse_grains_behind_walls(simulation_);
   const GuardReading now = reading(extremes_);
   fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
-  near_limit_ = extremes_.largest_speed * std::sqrt(3.) > kWarnShare * settings_.largest_mach;
+  near_limit_ = resolved && extremes_.largest_speed * std::sqrt(3.) > kWarnShare * settings_.largest_mach;
   const std::vector<std::string> warnings = guards_.look(now);
   for (const std::string& line : warnings) say(line);
   if (warnings.empty()) return;
@@ -99,6 +101,7 @@ void LbmRun::check(long step) {
 GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   GuardReading now;
   now.fluid = fluid;
+  if (simulation_.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
   now.mach_limit = settings_.largest_mach;
   if (grains_ > 0) now.fastest_grain = port_.summary().speed;
   if (solid_volume_ > 0)
@@ -242,6 +245,7 @@ std::optional<std::string> LbmRun::drag_note() const {
   const lbm::CollisionSettings& collision = simulation_.fluid().settings().collision;
   const lbm::Units& units = simulation_.units();
   const double speed = fastest_grain_ * units.spacing() / units.viscosity_si();
+  if (simulation_.method() != nullptr) return std::nullopt;
   if (speed < kFastGrains || collision.collision_operator != lbm::CollisionOperator::trt) return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "

@@ -77,6 +77,29 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
   coupled.virtual_mass = 0;
 }
 
+void read_method(ArgumentReader& reader, LbmSettings& settings) {
+  if (settings.lattice_given)
+    throw_user_error({reader.who(), "line", "after lbm lattice", "come before it",
+                      "what a spacing and a step may be depends on the method"});
+  const bool averaged = choose<bool>(reader, "method", {{"resolved", false}, {"averaged", true}});
+  std::optional<AveragedSettings> chosen;
+  if (averaged) {
+    chosen.emplace();
+    std::vector<std::pair<std::string, DragLaw>> laws;
+    for (const DragLawEntry& entry : drag_laws()) laws.emplace_back(entry.word, entry.law);
+    while (!reader.done()) {
+      if (reader.keyword("drag"))
+        chosen->drag = choose<DragLaw>(reader, "drag", laws);
+      else if (reader.keyword("graded"))
+        chosen->graded = choose<bool>(reader, "graded", kYesNo);
+      else
+        reader.unknown(reader.word("keyword"), "drag, graded");
+    }
+  }
+  settings.coupled.averaged = chosen;
+  settings.coupled.units.only_cells_and_steps = averaged;
+}
+
 void read_fluid(ArgumentReader& reader, LbmSettings& settings) {
   lbm::UnitsRequest units = settings.coupled.units;
   while (!reader.done()) {

@@ -53,7 +53,8 @@ struct CheckpointRequest {
 struct LbmSettings {
   CoupledSettings coupled;
   bool fluid_given = false, lattice_given = false;
-  std::string region;  ///< of the fluid; empty: LIGGGHTS's box
+  std::vector<std::string> resolved_words;  ///< lines given that only the resolved flow knows
+  std::string region;                       ///< of the fluid; empty: LIGGGHTS's box
   std::array<ScriptFace, lbm::kFaces> faces;
   ScriptVector gravity, pressure_gradient;
   WallSettings walls;
@@ -69,6 +70,8 @@ struct LbmSettings {
 /// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words
 /// that it does not know and values that cannot work, and leaves the settings as they were.
 /// docs/reference/lbm.md lists the words.
+/// `lbm method resolved | averaged [drag LAW] [graded yes|no]`
+void read_method(ArgumentReader& reader, LbmSettings& settings);
 void read_preset(ArgumentReader& reader, LbmSettings& settings);
 void read_fluid(ArgumentReader& reader, LbmSettings& settings);
 void read_lattice(ArgumentReader& reader, LbmSettings& settings);

@@ -58,6 +58,13 @@ std::string grains_text(const LiggghtsPort::Summary& grains, double spacing) {
   return fmt::format("{}, {}", grains.grains, sizes_text(grains, spacing));
 }
 
+std::string grains_text_in_cells(const LiggghtsPort::Summary& grains, double spacing) {
+  if (grains.grains == 0) return "none: the water flows alone";
+  return fmt::format("{}, cells of {:.3g} to {:.3g} diameters, {:.3g} Sauter mean", grains.grains,
+                     0.5 * spacing / grains.largest_radius, 0.5 * spacing / grains.smallest_radius,
+                     spacing / grains.sauter_diameter);
+}
+
 /// Axis across which two different pressures, or a pressure and a velocity, are given; none: -1.
 int driven_axis(const lbm::FaceConditions& faces) {
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -106,28 +113,36 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   const lbm::Units& units = simulation.units();
   const lbm::Index3& cells = fluid.decomposition().cells();
   const lbm::CollisionSettings& collision = fluid.settings().collision;
+  const WaterMethod* method = simulation.method();
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("lattice     {} x {} x {} cells on {}, {}, {} kernels, {}{}", cells[0], cells[1], cells[2],
-                  count_text(fluid.decomposition().ranks(), "rank"), name_of(collision.collision_operator),
-                  name_of(fluid.instruction_set()),
-                  fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
-                  collision.incompressible ? ", incompressible" : ""));
+  if (method != nullptr)
+    lines.push_back(fmt::format("water       {} x {} x {} cells on {}, {}", cells[0], cells[1], cells[2],
+                                count_text(fluid.decomposition().ranks(), "rank"), method->summary()));
+  else
+    lines.push_back(
+        fmt::format("lattice     {} x {} x {} cells on {}, {}, {} kernels, {}{}", cells[0], cells[1],
+                    cells[2], count_text(fluid.decomposition().ranks(), "rank"),
+                    name_of(collision.collision_operator), name_of(fluid.instruction_set()),
+                    fluid.settings().precision == lbm::Precision::double_precision ? "double" : "float",
+                    collision.incompressible ? ", incompressible" : ""));
   lines.push_back("            " + units.summary());
   lines.push_back("faces       " + faces_text(fluid.settings().faces));
   lines.insert(lines.end(), walls.begin(), walls.end());
-  lines.push_back("grains      " + grains_text(grains, units.spacing()));
-  if (const std::string bed = bed_text(simulation, grains); !bed.empty()) lines.push_back(bed);
-  if (grains.grains > 0) lines.push_back("solids      " + solids_text(simulation.settings().solids));
+  lines.push_back("grains      " + (method == nullptr ? grains_text(grains, units.spacing())
+                                                      : grains_text_in_cells(grains, units.spacing())));
+  if (const std::string bed = bed_text(simulation, grains); method == nullptr && !bed.empty())
+    lines.push_back(bed);
+  if (grains.grains > 0 && method == nullptr)
+    lines.push_back("solids      " + solids_text(simulation.settings().solids));
   lines.push_back(fmt::format("coupling    {} of {:.4g} s a fluid step{}",
                               count_text(simulation.substeps(), "DEM step"),
                               units.time_step() / simulation.substeps(),
                               simulation.settings().average_force ? ", mean force of two steps" : ""));
   for (const EffectChoice& effect : effects)
     lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
-  if (const std::string note = resolution_note(grains, units.spacing()); !note.empty())
+  if (const std::string note = resolution_note(grains, units.spacing()); method == nullptr && !note.empty())
     lines.push_back("note: " + note + " (docs/performance_coupled.md#what-accuracy-costs)");
-  if (const std::string note = collision_note(simulation, grains); !note.empty())
+  if (const std::string note = collision_note(simulation, grains); method == nullptr && !note.empty())
     lines.push_back("note: " + note + " (docs/reference/lbm.md#collision)");
   for (const std::string& warning : units.warnings())
     lines.push_back("note: " + warning + " (docs/reference/lbm.md#fluid-lattice)");
@@ -136,8 +151,9 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
 
 std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall) {
   const MPI_Comm communicator = simulation.fluid().decomposition().communicator();
+  const bool averaged = simulation.method() != nullptr;
   double bare = 1e300;
-  for (int n = 0; n < 3; ++n) {
+  for (int n = 0; n < 3 && !averaged; ++n) {
     MPI_Barrier(communicator);
     const double start = MPI_Wtime();
     simulation.fluid().bare_update();
@@ -164,10 +180,14 @@ std::string time_table(CoupledSimulation& simulation, long steps, double grain_s
   row("rest", std::max(0., rest));
   const lbm::Index3& cells = simulation.fluid().decomposition().cells();
   const double all_cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, cells}.volume());
-  text += fmt::format("{} in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
-                      count_text(steps, "step"), duration_text(wall),
-                      all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
-                      100 * bare * count / std::max(parts[0], 1e-9));
+  if (averaged)
+    text += fmt::format("{} in {}: water {:.2f} times the time of the grains", count_text(steps, "step"),
+                        duration_text(wall), (parts[0] + parts[2]) / std::max(parts[3], 1e-9));
+  else
+    text += fmt::format("{} in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
+                        count_text(steps, "step"), duration_text(wall),
+                        all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
+                        100 * bare * count / std::max(parts[0], 1e-9));
   if (grain_steps > 0)
     text +=
         fmt::format("; grains {:.2f} M grain steps a second", grain_steps / std::max(parts[3], 1e-9) * 1e-6);

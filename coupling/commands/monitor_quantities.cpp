@@ -164,8 +164,9 @@ Quantity mass_quantity() {
               const lbm::FaceKind kind =
                   settings.faces[static_cast<std::size_t>(2 * sample.axis + side)].kind;
               const bool open = kind == lbm::FaceKind::velocity || kind == lbm::FaceKind::pressure;
-              // Water under pressure is denser; `incompressible` moves it at the reference density.
-              const double denser = settings.collision.incompressible
+              // Water under pressure is denser; `incompressible` and the averaged flow move it at the
+              // reference density.
+              const double denser = settings.collision.incompressible || sample.simulation.method() != nullptr
                                         ? 1
                                         : units.pressure_to_density_lattice(planes.pressure[plane]);
               return open ? units.density() * denser * planes.flux[plane][sample.axis] : 0;

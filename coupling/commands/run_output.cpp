@@ -74,6 +74,7 @@ void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulatio
     save_references(state, references, lmp->world);
     save_pore_coefficients(state, simulation);
     save_walls(state, simulation);
+    save_method(state, simulation);
     state.close();
   }
   write_grains_file(lmp, set.grains, who);
@@ -127,8 +128,16 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     fields.origin = simulation.origin();
     fields.append = continue_after.has_value();
     fields.solid_fraction = [&simulation](const lbm::Index3& cell) {
-      return simulation.fluid().solid_fraction(cell);
+      return simulation.solid_fraction(cell);
     };
+    if (simulation.method() != nullptr &&
+        std::count(fields.fields.begin(), fields.fields.end(), lbm::Field::density) > 0)
+      throw_user_error({"lbm output " + request.id, "density", "asked for",
+                        "not be a field of the averaged flow, whose density is constant", "take pressure"});
+    if (simulation.method() != nullptr)
+      fields.for_each_point = [&simulation](const lbm::Fluid::PointVisitor& visit) {
+        simulation.for_each_point(visit);
+      };
     fields_.push_back(std::make_unique<Fields>(Fields{request,
                                                       simulation.units().steps_in(request.every),
                                                       -1,

@@ -8,6 +8,7 @@
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/coupling/methods/averaged_flow.h"
 #include "suffuse/coupling/virtual_mass.h"
 #include "suffuse/lbm/health.h"
 
@@ -18,11 +19,40 @@ namespace {
 lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Units& units) {
   lbm::FluidSettings fluid = settings.fluid;
   fluid.collision.relaxation_time = units.relaxation_time();
+  if (!settings.averaged) return fluid;
+  fluid.collision = {};  // nothing collides: the lattice keeps cells, ranks, kinds of faces and steps
+  fluid.collision.relaxation_time = 1;
+  for (lbm::FaceCondition& face : fluid.faces) face = {face.kind};
   return fluid;
+}
+
+WaterFaces faces_si(const lbm::FaceConditions& faces, const lbm::Units& units) {
+  WaterFaces si;
+  for (std::size_t f = 0; f < lbm::kFaces; ++f)
+    si[f] = {faces[f].kind, units.velocity_to_si(faces[f].velocity),
+             units.density_lattice_to_pressure(faces[f].density)};
+  return si;
+}
+
+std::unique_ptr<WaterMethod> method_of(const CoupledSettings& settings, const lbm::Units& units,
+                                       const lbm::Decomposition& decomposition, const Vec3& origin) {
+  if (!settings.averaged) return nullptr;
+  AveragedFlowSetup setup;
+  setup.cells = decomposition.cells();
+  setup.origin = origin;
+  setup.spacing = units.spacing();
+  setup.time_step = units.time_step();
+  setup.density = units.density();
+  setup.viscosity = units.viscosity_si();
+  setup.faces = faces_si(settings.fluid.faces, units);
+  setup.closures = *settings.averaged;
+  setup.communicator = decomposition.communicator();
+  return averaged_flow(setup);
 }
 
 CoupledSettings with_coefficients(CoupledSettings settings) {
   SolidSettings& solids = settings.solids;
+  solids.automatic_coefficient &= !settings.averaged;
   solids.automatic_coefficient &= solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
   solids.cells.own_coefficients |= solids.automatic_coefficient;
   return settings;
@@ -117,6 +147,7 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       cells_(fluid_.use_partial_solids(settings_.solids.cells)),
       mapping_(settings_.solids, fluid_.instruction_set(), cells_, decomposition.local_box(),
                fluid_.rows_per_block()),
+      method_(method_of(settings_, units_, decomposition, origin)),
       pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
@@ -129,10 +160,22 @@ void CoupledSimulation::set_substeps(int substeps) {
 
 void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
   settings_.pressure_gradient = si;
+  if (method_) return method_->set_pressure_gradient(si);
   fluid_.set_force(units_.force_density_to_lattice(si));
 }
 
+void CoupledSimulation::set_faces(const lbm::FaceConditions& faces) {
+  if (method_)
+    method_->set_faces(faces_si(faces, units_));
+  else
+    fluid_.set_faces(faces);
+}
+
 void CoupledSimulation::set_walls(const lbm::Walls& walls, const std::string& acting) {
+  if (method_ && !acting.empty())
+    throw_user_error({"lbm method averaged", "walls in the water", acting,
+                      "lie on the faces of the water's box: an averaged flow knows no others",
+                      "write `lbm walls open ID`, or `lbm method resolved`"});
   fluid_.set_walls(walls);
   mapping_.set_closed(walls.closed);
   acting_walls_ = acting;
@@ -158,6 +201,7 @@ long CoupledSimulation::grains_behind_walls() const {
 }
 
 void CoupledSimulation::map() {
+  if (method_) return method_->place(grains_.grains());
   place_spheres();
   const Stopwatch watch(times_.mapping);
   mapping_.write();
@@ -351,6 +395,7 @@ double CoupledSimulation::overlap() const {
 }
 
 void CoupledSimulation::refresh_loads() {
+  if (method_) return;  // every step hands them over
   if (loads_step_ == fluid_.steps() || !stepped_) return;
   {
     const Stopwatch watch(times_.exchange);
@@ -381,7 +426,85 @@ void CoupledSimulation::step_fluid(bool loads_wanted) {
   times_.fluid += MPI_Wtime() - start - (times_.mapping + times_.exchange - before);
 }
 
+void CoupledSimulation::step_method() {
+  const GrainArrays grains = grains_.grains();
+  {
+    const Stopwatch watch(times_.fluid);
+    method_->step(grains);
+    fluid_.set_progress(fluid_.steps() + 1, false);
+  }
+  stepped_ = true;
+  {
+    const Stopwatch watch(times_.exchange);
+    require_stable(extremes(), 1, "lbm run");
+    hand_method_loads_over(grains);
+  }
+  const Stopwatch watch(times_.grains);
+  grains_.advance(substeps_);
+}
+
+/// Force of the method and the weight of the displaced water; no torque.
+void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
+  const GrainMemory memory = grains_.memory();
+  const Vec3 gravity = settings_.effects.buoyancy == Switch::off ? Vec3(Vec3::Zero()) : settings_.gravity;
+  for (int n = 0; n < grains.owned; ++n) {
+    const auto grain = static_cast<std::size_t>(n);
+    const double displaced = units_.density() * sphere_volume(grains.radius[n]);
+    const bool wet = method_->is_wet(grain);
+    Eigen::Map<Vec3> force(memory.load + 6 * n), torque(memory.load + 6 * n + 3);
+    force = method_->forces()[grain];
+    if (wet) force -= displaced * gravity;
+    torque.setZero();
+    GrainRecord& record = memory.record[n];
+    // Added inertia resists: an acceleration on the other side would lag and feed the contacts' vibrations.
+    for (int a = 0; a < 3; ++a) record.acceleration[a] = record.angular_acceleration[a] = 0;
+    const double added =
+        settings_.virtual_mass ? *settings_.virtual_mass * displaced : method_->virtual_masses()[grain];
+    record.virtual_mass = wet ? added : 0;
+    record.virtual_moment = 0;
+    record.known = 1;
+  }
+  loads_step_ = fluid_.steps();
+}
+
+void CoupledSimulation::for_each_point(const lbm::Fluid::PointVisitor& visit) const {
+  if (!method_) return fluid_.for_each_point(visit);
+  lbm::for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
+    const WaterCell water = method_->at({x, y, z});
+    const lbm::FluidPoint point{units_.pressure_to_density_lattice(water.pressure),
+                                units_.velocity_to_lattice(water.flux)};
+    visit({x, y, z}, point, water.solid_fraction);
+  });
+}
+
+double CoupledSimulation::solid_fraction(const lbm::Index3& cell) const {
+  return method_ ? method_->at(cell).solid_fraction : fluid_.solid_fraction(cell);
+}
+
+Vec3 CoupledSimulation::solid_flux(const lbm::Index3& cell) const {
+  return method_ ? units_.velocity_to_lattice(method_->at(cell).solid_flux) : mapping_.solid_flux(cell);
+}
+
+lbm::FluidExtremes CoupledSimulation::extremes() const {
+  if (!method_) return fluid_.extremes();
+  return {units_.velocity_to_lattice(method_->largest_speed()), 1, 1, method_->is_finite()};
+}
+
+void CoupledSimulation::require_stable(const lbm::FluidExtremes& extremes, double largest_mach,
+                                       const std::string& who) const {
+  if (!method_) return lbm::require_stable(extremes, units_, time_si(), largest_mach, who);
+  if (!extremes.finite)
+    throw_lost_run({who, fmt::format("flow at {:.5g} s", time_si()), "not a number", "stay finite",
+                      fmt::format("use a timestep below {:.3g} s", 0.5 * units_.time_step())});
+}
+
+std::string CoupledSimulation::health_text(const lbm::FluidExtremes& extremes) const {
+  if (!method_) return lbm::health_text(extremes);
+  return fmt::format("water up to {:.3g} m/s", units_.velocity_to_si(extremes.largest_speed));
+}
+
 void CoupledSimulation::step(bool loads_asked_for) {
+  if (method_) return step_method();
   place_spheres();
   const bool loads_wanted = loads_asked_for || grains_.reads_loads(loads_span() * substeps_);
   step_fluid(loads_wanted);

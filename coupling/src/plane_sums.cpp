@@ -33,27 +33,34 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   Totals totals{};
   double extremes[4] = {0, -1e300, -1e300,
                         0};  // squared speed, density, -density, anything that is no number
-  fluid.for_each_point([&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
-    const double open = 1 - solid_fraction;
-    const Vec3 solid = simulation.mapping().solid_flux(cell);
-    Sums& plane = sums[static_cast<std::size_t>(cell[along])];
-    for (int a = 0; a < 3; ++a) {
-      plane.flux[a] += point.velocity[a];
-      plane.solid_flux[a] += solid[a];
-    }
-    plane.room += fluid.is_closed(cell) ? 0 : 1;
-    plane.open += open;
-    plane.pressure += open * (point.density - 1);
-    const double speed_squared = point.velocity.squaredNorm();
-    totals.mass += open * point.density;
-    totals.energy += open * point.density * speed_squared;
-    totals.stored += point.density - 1;
-    if (fluid.is_solid(cell)) return;
-    if (!std::isfinite(point.density) || !std::isfinite(speed_squared)) extremes[3] = 1;
-    extremes[0] = std::max(extremes[0], speed_squared);
-    extremes[1] = std::max(extremes[1], point.density);
-    extremes[2] = std::max(extremes[2], -point.density);
-  });
+  simulation.for_each_point(
+      [&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
+        const double open = 1 - solid_fraction;
+        const Vec3 solid = simulation.solid_flux(cell);
+        Sums& plane = sums[static_cast<std::size_t>(cell[along])];
+        for (int a = 0; a < 3; ++a) {
+          plane.flux[a] += point.velocity[a];
+          plane.solid_flux[a] += solid[a];
+        }
+        plane.room += fluid.is_closed(cell) ? 0 : 1;
+        plane.open += open;
+        plane.pressure += open * (point.density - 1);
+        // Means of a cell that grains share hold their flux: the water's own speed is that of the rest.
+        const Vec3 water = simulation.method() != nullptr && open > 0 ? Vec3((point.velocity - solid) / open)
+                                                                      : point.velocity;
+        const double speed_squared = water.squaredNorm();
+        // Elsewhere than on the lattice a density is but another word for the pressure, and there is no
+        // sound.
+        const double density = simulation.method() != nullptr ? 1 : point.density;
+        totals.mass += open * density;
+        totals.energy += open * density * speed_squared;
+        totals.stored += density - 1;
+        if (fluid.is_solid(cell)) return;
+        if (!std::isfinite(density) || !std::isfinite(speed_squared)) extremes[3] = 1;
+        extremes[0] = std::max(extremes[0], simulation.method() != nullptr ? 0 : speed_squared);
+        extremes[1] = std::max(extremes[1], density);
+        extremes[2] = std::max(extremes[2], -density);
+      });
   std::memcpy(&sums.back(), &totals, sizeof totals);  // they travel with the planes
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), kSums * static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 d.communicator());

@@ -70,12 +70,16 @@ std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units
     });
     return values;
   }
-  fluid.for_each_point([&](const Index3&, const FluidPoint& point, double) {
+  const auto visit = [&](const Index3&, const FluidPoint& point, double) {
     if (field == Field::velocity)
       for (int a = 0; a < 3; ++a) add(units.velocity_to_si(point.velocity[a]));
     if (field == Field::pressure) add(units.density_lattice_to_pressure(point.density));
     if (field == Field::density) add(units.density_to_si(point.density));
-  });
+  };
+  if (settings.for_each_point)
+    settings.for_each_point(visit);
+  else
+    fluid.for_each_point(visit);
   return values;
 }
 

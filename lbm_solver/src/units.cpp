@@ -45,7 +45,8 @@ void check_request(const UnitsRequest& r) {
 
 }  // namespace
 
-Units::Units(const UnitsRequest& r) : density_(r.density), viscosity_(r.viscosity) {
+Units::Units(const UnitsRequest& r)
+    : density_(r.density), viscosity_(r.viscosity), only_cells_and_steps_(r.only_cells_and_steps) {
   check_request(r);
   largest_velocity_ = r.largest_velocity.value_or(0);
   pressure_difference_ = r.pressure_difference.value_or(0);
@@ -75,6 +76,7 @@ void Units::check() const {
                                           {"timestep", time_step_, " s"},
                                           {"relaxation_time", relaxation_time_, ""}})
     require_positive(what, value, unit);
+  if (only_cells_and_steps_) return;
   if (!(relaxation_time_ - 0.5 > 1e-5))
     throw_user_error(
         {kWho, "relaxation_time", fmt::format("{:.6f}", relaxation_time_), "be above 0.50001",
@@ -106,6 +108,7 @@ double Units::density_difference() const {
 }
 
 std::string Units::summary() const {
+  if (only_cells_and_steps_) return fmt::format("spacing {:.4g} m, timestep {:.4g} s", spacing_, time_step_);
   std::string line = fmt::format("spacing {:.4g} m, timestep {:.4g} s, relaxation time {:.4g}", spacing_,
                                  time_step_, relaxation_time_);
   if (largest_velocity_ > 0)
@@ -119,6 +122,7 @@ std::string Units::summary() const {
 
 std::vector<std::string> Units::warnings() const {
   std::vector<std::string> lines;
+  if (only_cells_and_steps_) return lines;
   if (mach() > 0.17)
     lines.push_back(
         fmt::format("Mach {:.2f}: compressibility costs about {:.0f} % of accuracy; a timestep of {:.2g} s "

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "suffuse/coupling/automatic_coefficient.h"
+#include "suffuse/coupling/methods/water_method.h"
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/coupling/solid_mapping.h"
@@ -61,11 +63,28 @@ class CoupledSimulation {
   /// it is of the same step. Without this call, to nothing.
   void continue_loads() { loads_step_ = fluid_.steps(); }
 
+  /// The lattice. With a method of its own for the water it only keeps cells, ranks, faces and steps.
   lbm::Fluid& fluid() { return fluid_; }
   const lbm::Fluid& fluid() const { return fluid_; }
   const lbm::Units& units() const { return units_; }
   const CoupledSettings& settings() const { return settings_; }
   const SolidMapping& mapping() const { return mapping_; }
+  /// What computes the water instead of the lattice; null if the lattice does.
+  const WaterMethod* method() const { return method_.get(); }
+  WaterMethod* method() { return method_.get(); }
+
+  /// The water in the cells of this rank, whoever computes it (lbm::Fluid::for_each_point): of a method's
+  /// cells the volume flux of water and grains together. After `map`.
+  void for_each_point(const lbm::Fluid::PointVisitor& visit) const;
+  /// Share of a cell of this rank that grains cover, and the part of its velocity that is theirs, cells a
+  /// step.
+  double solid_fraction(const lbm::Index3& cell) const;
+  Vec3 solid_flux(const lbm::Index3& cell) const;
+  lbm::FluidExtremes extremes() const;
+  /// A UserError where the flow is no number any more, or faster than a lattice can be.
+  void require_stable(const lbm::FluidExtremes& extremes, double largest_mach, const std::string& who) const;
+  /// For progress lines.
+  std::string health_text(const lbm::FluidExtremes& extremes) const;
   const Vec3& origin() const { return origin_; }
   /// This rank's spheres as they were last read, copies included, in lattice units.
   const std::vector<LatticeSphere>& spheres() const { return spheres_; }
@@ -83,7 +102,9 @@ class CoupledSimulation {
   /// k in a cell of this rank as the last step mapped it, the mean of the spheres there; 0 without.
   double solid_coefficient(const lbm::Index3& cell) const;
   /// Memory that this rank holds for fluid and solids.
-  std::size_t bytes() const { return fluid_.bytes() + mapping_.bytes() + pores_.bytes(); }
+  std::size_t bytes() const {
+    return fluid_.bytes() + mapping_.bytes() + pores_.bytes() + (method_ ? method_->bytes() : 0);
+  }
   /// What the pores add to automatic coefficients in each cell of this rank, x fastest; empty before a survey
   /// and without them. A saved state needs it, for the grains have moved on since.
   std::vector<float> pore_coefficients() const { return pores_.values(); }
@@ -107,13 +128,15 @@ class CoupledSimulation {
   long grains_behind_walls() const;
 
   /// New values from the next step on, SI.
-  void set_faces(const lbm::FaceConditions& faces) { fluid_.set_faces(faces); }
+  void set_faces(const lbm::FaceConditions& faces);
   void set_gravity(const Vec3& si) { settings_.gravity = si; }
   void set_pressure_gradient(const Vec3& si);
 
  private:
   void place_spheres();
   void step_fluid(bool loads_wanted);
+  void step_method();
+  void hand_method_loads_over(const GrainArrays& grains);
   void hand_loads_over();
   void read_spheres(const GrainArrays& grains);
   bool survey_due(const GrainArrays& grains);
@@ -129,6 +152,7 @@ class CoupledSimulation {
   lbm::Fluid fluid_;
   lbm::PartialSolidArrays cells_;
   SolidMapping mapping_;
+  std::unique_ptr<WaterMethod> method_;
   PoreSurvey pores_;
   CoefficientLaw law_;
   int substeps_ = 1;

@@ -6,6 +6,7 @@
 #include "suffuse/common/linear_algebra.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/mapped_sphere.h"
+#include "suffuse/coupling/methods/averaged_settings.h"
 #include "suffuse/lbm/fluid.h"
 #include "suffuse/lbm/units.h"
 
@@ -39,6 +40,8 @@ struct EffectSettings {
 
 struct CoupledSettings {
   lbm::UnitsRequest units;
+  /// Averaged flow on cells larger than the grains; without, the lattice resolves the flow between them.
+  std::optional<AveragedSettings> averaged;
   lbm::FluidSettings fluid;  ///< its relaxation time is set from the units
   SolidSettings solids;
   EffectSettings effects;

@@ -19,6 +19,8 @@ struct FieldOutputSettings {
 
   /// Solid fraction of a cell of this rank, 0 to 1; without it, whole solid cells count.
   std::function<double(const Index3& cell)> solid_fraction;
+  /// Velocity and density of the cells of this rank; without it, the fluid's own (Fluid::for_each_point).
+  std::function<void(const Fluid::PointVisitor& visit)> for_each_point;
 };
 
 /// The name of the XDMF file of an HDF5 file.

@@ -20,6 +20,9 @@ struct UnitsRequest {
 
   std::optional<double> largest_velocity;     ///< expected, m/s: for the Mach and grid Reynolds numbers
   std::optional<double> pressure_difference;  ///< expected over the box, Pa: for the density difference
+
+  /// Cells and steps of something else than a lattice: any relaxation time and Mach number will do.
+  bool only_cells_and_steps = false;
 };
 
 /// The one place where SI becomes lattice units (cells, steps, reference density one) and back.
@@ -77,6 +80,7 @@ class Units {
   void check() const;
 
   double density_, viscosity_;
+  bool only_cells_and_steps_ = false;
   double spacing_ = 0, time_step_ = 0, relaxation_time_ = 0;
   double largest_velocity_ = 0, pressure_difference_ = 0;
 };
