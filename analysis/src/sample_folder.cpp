@@ -30,7 +30,12 @@ constexpr std::array<State, 3> kStates{{{"loose", 0.3}, {"medium", 0.1}, {"dense
 class Table {
  public:
   Table(const std::string& path, std::string who) : path_(path), who_(std::move(who)) {
-    table_ = read_toml(path, who_);
+    try {
+      table_ = read_toml(path, who_);
+    } catch (const UserError& problem) {
+      const std::string message = problem.what();
+      throw UserError(message.starts_with(who_) ? message : who_ + ": " + message);
+    }
     for (const auto& [key, value] : table_)
       if (std::find(kKeys.begin(), kKeys.end(), key.str()) == kKeys.end())
         complain(std::string(key.str()), "unknown", fmt::format("be one of {}", fmt::join(kKeys, ", ")));

@@ -85,7 +85,7 @@ std::string styles_text() {
   std::string text = fmt::format("What suffuse adds to LIGGGHTS; pages in {}\n\n", folder_of_pages());
   const std::vector<Style> table = style_table();
   std::vector<std::string> known = registered_styles();
-  known.insert(known.begin(), {"command lbm", "pair_style gran"});
+  known.insert(known.begin(), {"command lbm", "command restart_set", "pair_style gran"});
   for (const std::string& name : known) {
     const auto row = std::find_if(table.begin(), table.end(),
                                   [&](const Style& s) { return s.kind + " " + s.name == name; });

@@ -214,7 +214,7 @@ void CoupledSimulation::map_anew() {
 }
 
 bool SeenGrains::same(const GrainArrays& grains) const {
-  if (static_cast<std::size_t>(grains.total) != ids_.size()) return false;
+  if (!has_seen_ || static_cast<std::size_t>(grains.total) != ids_.size()) return false;
   const auto equal = [&](const auto* now, const auto& then, std::size_t each) {
     return std::memcmp(now, then.data(), each * ids_.size() * sizeof(*now)) == 0;
   };
@@ -224,6 +224,7 @@ bool SeenGrains::same(const GrainArrays& grains) const {
 }
 
 void SeenGrains::keep(const GrainArrays& grains) {
+  has_seen_ = true;
   positions_.assign(grains.position, grains.position + 3 * grains.total);
   velocities_.assign(grains.velocity, grains.velocity + 3 * grains.total);
   spins_.assign(grains.angular_velocity, grains.angular_velocity + 3 * grains.total);
@@ -495,7 +496,7 @@ void CoupledSimulation::require_stable(const lbm::FluidExtremes& extremes, doubl
   if (!method_) return lbm::require_stable(extremes, units_, time_si(), largest_mach, who);
   if (!extremes.finite)
     throw_lost_run({who, fmt::format("flow at {:.5g} s", time_si()), "not a number", "stay finite",
-                      fmt::format("use a timestep below {:.3g} s", 0.5 * units_.time_step())});
+                    fmt::format("use a timestep below {:.3g} s", 0.5 * units_.time_step())});
 }
 
 std::string CoupledSimulation::health_text(const lbm::FluidExtremes& extremes) const {

@@ -116,7 +116,8 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
 }
 
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {
-  if (spheres.size() != placed_.size()) return false;
+  if (spheres.size() != placed_.size() || mapped_.size() != placed_.size())
+    return false;  // forgotten: mapped alone
   for (std::size_t n = 0; n < spheres.size(); ++n) {
     const LatticeSphere& then = placed_[n];
     if (spheres[n].id != then.id || spheres[n].radius != then.radius) return false;

@@ -178,7 +178,7 @@ def check_mistakes(study):
     def refuse(told, old="", new="", extra="", words=()):
         study.must_refuse([study.write("bad.toml", TINY_STUDY.replace(old, new, 1) + extra), "--out", "bad", "--no-figure", *words], *told)
 
-    study.must_refuse(["none.toml"], "none.toml", "be there")
+    study.must_refuse(["none.toml"], "none.toml", "can be read")
     study.must_refuse([], "STUDY")
     refuse(["bad.toml, line 1"], old="script", new="[script")
     refuse(["scripts", "unknown"], old="script =", new="scripts =")

@@ -116,6 +116,16 @@ TEST_CASE("grains that come and go leave no solid behind, and no mass") {
   CHECK(std::abs(scene.simulation->fluid().mass_deviation()) < 1e-10);
 }
 
+TEST_CASE("grains that left while all were to be mapped anew leave nothing behind") {
+  Scene scene(lattice_settings(0.7, fixed_solids(5)), kBox, awkward_grains(), MPI_COMM_WORLD);
+  scene.run(2);
+  CHECK(solid_volume(scene.simulation->fluid()) > 100);
+  scene.grains.list.clear();
+  scene.simulation->map_anew();
+  CHECK(solid_volume(scene.simulation->fluid()) == 0);
+  scene.run(2);
+}
+
 TEST_CASE("only grains that moved are mapped again") {
   CoupledSettings settings = lattice_settings(0.8, fixed_solids(5));
   Scene scene(settings, kBox, {sphere_at(Vec3(5, 9, 5), 2.5), sphere_at(Vec3(14, 9, 14), 2.5)});

@@ -26,6 +26,7 @@ class SeenGrains {
  private:
   std::vector<double> positions_, velocities_, spins_, radii_;
   std::vector<int> ids_;
+  bool has_seen_ = false;  ///< nothing seen is not the same as no grains
 };
 
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
