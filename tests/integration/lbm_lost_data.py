@@ -271,7 +271,7 @@ def main():
     arguments = sys.argv[1:]
     value = {name: arguments[arguments.index(name) + 1] for name in ("--suffuse", "--mpirun", "--ranks", "--kills") if name in arguments}
     program = Program(value["--suffuse"], value["--mpirun"], int(value["--ranks"]))
-    kills = int(value.get("--kills", 4))
+    kills = int(value.get("--kills", 2))
     with scratch() as scratch_folder:
         folder = pathlib.Path(scratch_folder)
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box(grains=6) + "write_restart start\n", folder)
