@@ -121,6 +121,7 @@ std::string lattice_line(const AccuracyChoice& choice, const AccuracyScene& scen
 
 std::string neighbour_line(const char* name, double cells, double accuracy, const AccuracyScene& scene,
                            const AccuracyChoice& chosen) {
+  if (fitting_spacing(scene.size, scene.fine_diameter / cells) <= 0) return "";
   const AccuracyChoice other = choice_with_cells(cells, accuracy, scene);
   return fmt::format("lbm accuracy: {:<11}{:.2g} cells: about {}, {:.2g} times the time\n", name, other.cells,
                      percent(other.errors.together()), other.cost / chosen.cost);

@@ -352,6 +352,9 @@ int LbmCommand::choose_substeps() {
 void LbmCommand::accuracy(ArgumentReader& reader) {
   const AccuracyRequest request = read_accuracy(reader);
   require_box(reader.who());
+  if (settings_.coupled.averaged)
+    throw_user_error({reader.who(), "method", "averaged", "be resolved: its errors are those of a drag law",
+                      "write `lbm lattice` with a spacing of about three mean diameters"});
   const bool made_port = port_ == nullptr;
   if (made_port) port_ = std::make_unique<LiggghtsPort>(lmp_);
   set_accuracy(lmp_, request, *port_, settings_);

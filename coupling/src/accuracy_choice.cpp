@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/automatic_coefficient.h"
@@ -119,15 +121,18 @@ AccuracyChoice choose_for_accuracy(double accuracy, const AccuracyScene& scene) 
     throw_user_error(
         {kWho, "velocity", "none", "be known",
          "write `max_velocity U`, or the `lbm boundary` and `lbm force` that drive the water before"});
+  std::optional<AccuracyChoice> finest;
   for (double cells = kLeastCells; cells <= kMostCells + 1e-9; cells += kStepOfCells) {
-    const AccuracyChoice choice = choice_with_cells(cells, accuracy, scene);
-    if (kScatter * choice.errors.together() <= accuracy) return choice;
+    if (fitting_spacing(scene.size, scene.fine_diameter / cells) <= 0) continue;
+    finest = choice_with_cells(cells, accuracy, scene);
+    if (kScatter * finest->errors.together() <= accuracy) return *finest;
   }
-  const AccuracyErrors errors = choice_with_cells(kMostCells, accuracy, scene).errors;
+  if (!finest) finest = choice_with_cells(kMostCells, accuracy, scene);  // tells what is amiss with the box
+  const AccuracyErrors& errors = finest->errors;
   throw_user_error(
       {kWho, "accuracy", fmt::format("{:g} %", 100 * accuracy),
-       fmt::format("be above {:.2g} %, what {:g} cells a diameter give here",
-                   100 * kScatter * errors.together(), kMostCells),
+       fmt::format("be above {:.2g} %, what {:.2g} cells a diameter give here",
+                   100 * kScatter * errors.together(), finest->cells),
        errors.motion > errors.resolution ? "grains move too fast for finer: see `lbm collision`" : ""});
 }
 

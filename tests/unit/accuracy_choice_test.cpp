@@ -73,6 +73,10 @@ TEST_CASE("What cannot be had is refused with what is missing") {
   scene.size = {2e-3, 2.7182818e-3, 6e-3};
   CHECK_THAT(message_of([&] { choose_for_accuracy(0.03, scene); }),
              Catch::Contains("whole numbers of one cell"));
+  // Only some cells fit: coarse ones of 0.25 mm, and then their parts.
+  scene.size = {2e-3, 2.25e-3, 6e-3};
+  const AccuracyChoice choice = choose_for_accuracy(0.1, scene);
+  CHECK(0.25e-3 / choice.spacing == Approx(std::round(0.25e-3 / choice.spacing)));
   scene = bed();
   scene.velocity = 0;
   CHECK_THAT(message_of([&] { choose_for_accuracy(0.03, scene); }), Catch::Contains("max_velocity"));
