@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include "atom.h"
 #include "comm.h"
@@ -15,6 +14,7 @@
 #include "modify.h"
 #include "pair_gran.h"
 #include "pair_law.h"
+#include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/coordination.h"
@@ -30,9 +30,9 @@ constexpr const char* kWho = "fix loading/platen";
 constexpr const char* kChangeable = "stress, fixed, opening, speed";
 constexpr const char* kKeywords =
     "stress, fixed, opening, speed, collect, classes, mass, damping, area, type";
-/// Layout of the record in restart files: version, number of values behind these two, then the values.
-constexpr double kRecordVersion = 1;
-constexpr std::size_t kRecordHead = 2, kRecordFixed = 4;
+/// The record in restart files: position, velocity, reference, and three values a class.
+constexpr int kRecordVersion = 2;
+constexpr std::size_t kRecordFixed = 3;
 
 FixPropertyGlobal& property(LAMMPS* lmp, const char* name, const char* kind, int columns) {
   const int types = lmp->atom->ntypes;
@@ -303,30 +303,18 @@ double FixLoadingPlaten::compute_array(int row, int column) {
 
 void FixLoadingPlaten::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  std::vector<double> record{kRecordVersion,   static_cast<double>(kRecordFixed + 3 * passed_.classes()),
-                             motion_.position, motion_.velocity,
-                             reference_,       static_cast<double>(passed_.classes())};
+  std::vector<double> values{motion_.position, motion_.velocity, reference_};
   for (std::size_t k = 0; k < passed_.classes(); ++k)
-    record.insert(record.end(),
+    values.insert(values.end(),
                   {compute_array(static_cast<int>(k), 0), passed_.row(k).grains, passed_.row(k).mass});
-  const int size = static_cast<int>(record.size() * sizeof(double));
-  fwrite(&size, sizeof(int), 1, file);
-  fwrite(record.data(), sizeof(double), record.size(), file);
+  suffuse::write_record(file, {kRecordVersion, "", values});
 }
 
 /// The state goes on from the file; stress, opening and the rest are those of the script's line.
 void FixLoadingPlaten::restart(char* buffer) {
-  std::array<double, kRecordHead> head{};
-  std::memcpy(head.data(), buffer, sizeof(head));
-  if (head[0] != kRecordVersion)
-    throw_user_error({kWho, "version of its record in the restart file", fmt::format("{:g}", head[0]),
-                      fmt::format("be {:g}", kRecordVersion), "use the program that wrote the file"});
-  std::vector<double> values(static_cast<std::size_t>(head[1]));
-  std::memcpy(values.data(), buffer + sizeof(head), values.size() * sizeof(double));
-  if (values.size() < kRecordFixed || values.size() != kRecordFixed + 3 * static_cast<std::size_t>(values[3]))
-    throw_user_error({kWho, "length of its record in the restart file", fmt::format("{:g}", head[1]),
-                      "be that of its classes", "write the restart file anew"});
-  bool same = static_cast<std::size_t>(values[3]) == passed_.classes();
+  const std::vector<double> values =
+      suffuse::read_record(buffer, kRecordVersion, kRecordFixed + 3 * passed_.classes(), kWho).values;
+  bool same = true;
   for (std::size_t k = 0; same && k < passed_.classes(); ++k)
     same = values[kRecordFixed + 3 * k] == compute_array(static_cast<int>(k), 0);
   if (!same)
