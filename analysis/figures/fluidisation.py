@@ -17,7 +17,7 @@ import csv
 import pathlib
 import sys
 
-from time_series import TimeSeries
+from time_series import TimeSeries, numbered
 
 
 def results_of(path):
@@ -30,21 +30,6 @@ def results_of(path):
         return {row["quantity"]: float(row["value"]) for row in rows if row["layer"] == "" and row["value"]}
     except (OSError, KeyError, ValueError) as problem:
         sys.exit(f"{path}: is no file of `suffuse-analyse fluidisation --csv` ({problem})")
-
-
-def numbered(series, prefix):
-    """The columns prefix1, prefix2, ... as far as they go."""
-    found = []
-    while f"{prefix}{len(found) + 1}" in series:
-        found.append(series[f"{prefix}{len(found) + 1}"])
-    return found
-
-
-def shades(count):
-    """Colours of layers from the top, distinct in grey and for the colour-blind: a range of lightness without its pale end."""
-    from matplotlib import pyplot
-
-    return [pyplot.get_cmap("viridis")(0.9 * k / max(count - 1, 1)) for k in range(count)]
 
 
 def mark_critical(panel, results):
@@ -94,7 +79,7 @@ def draw_record(series, results, output, width):
     remaining = list(axes[1:])
     if stresses:
         panel = remaining.pop(0)
-        for number, (ratio, colour) in enumerate(zip(stresses, shades(len(stresses))), start=1):
+        for number, (ratio, colour) in enumerate(zip(stresses, style.shades(len(stresses))), start=1):
             panel.plot(layers[number - 1] if len(layers) == len(stresses) else gradient, ratio, color=colour, label=f"layer {number}" + (" (top)" if number == 1 else ""))
         mark_critical(panel, {key: value for key, value in results.items() if "Terzaghi" in key})
         panel.set(ylabel="vertical effective stress\nσ′/σ′₀ (−)", ylim=(min(0, *(min(r) for r in stresses)), max(1.1, *(r[0] for r in stresses))))
@@ -138,7 +123,7 @@ def draw_measures(figure, rows):
     names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
     axes = figure.subplots(4, 2, sharex=True).ravel()
     for panel, (column, label) in zip(axes, MEASURES):
-        for name, colour in zip(names, shades(len(names))):
+        for name, colour in zip(names, style.shades(len(names))):
             points = [(float(row["layer_gradient"]), float(row[column])) for row in rows if row["layer"] == name and row[column]]
             panel.plot(*zip(*points), color=colour, marker=".", markersize=3, linewidth=1, label=f"layer {name}") if points else None
         if column == "constraint_ratio":
@@ -151,10 +136,11 @@ def draw_measures(figure, rows):
 
 def draw_plot_of_three(panel, rows):
     """R against i and σ′/σ′₀, as in thesis Fig. 6.12(a)."""
+    import suffuse_style as style
     from matplotlib import ticker
 
     names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
-    for name, colour in zip(names, shades(len(names))):
+    for name, colour in zip(names, style.shades(len(names))):
         points = [tuple(float(row[c]) for c in ("layer_gradient", "effective_stress_ratio", "constraint_ratio"))
                   for row in rows if row["layer"] == name and row["effective_stress_ratio"]]
         if points:

@@ -72,3 +72,8 @@ def save(figure, path):
     pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
     plt.close(figure)
+
+
+def shades(count):
+    """Colours of layers from the top, distinct in grey and for the colour-blind: a range of lightness without its pale end."""
+    return [plt.get_cmap("viridis")(0.9 * k / max(count - 1, 1)) for k in range(count)]

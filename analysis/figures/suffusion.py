@@ -14,17 +14,10 @@ import argparse
 import csv
 import sys
 
-from time_series import TimeSeries
+from time_series import TimeSeries, numbered
 
 MARKS = (("skempton_brogan", "Skempton and Brogan", "green"), ("li_fannin", "Li and Fannin", "vermilion"),
          ("heave_under_the_stress", "heave", "purple"))
-
-
-def layers_of(series, prefix):
-    columns = []
-    while f"{prefix}_{len(columns) + 1}" in series:
-        columns.append(series[f"{prefix}_{len(columns) + 1}"])
-    return columns
 
 
 def results_of(path):
@@ -37,14 +30,10 @@ def results_of(path):
         sys.exit(f"{path}: is no result file of the scene ({problem})")
 
 
-def shades(count):
-    from matplotlib import pyplot
-
-    return [pyplot.get_cmap("viridis")(0.9 * k / max(count - 1, 1)) for k in range(count)]
-
-
 def draw_layers(panel, abscissa, columns, label):
-    for number, (values, colour) in enumerate(zip(columns, shades(len(columns))), start=1):
+    import suffuse_style as style
+
+    for number, (values, colour) in enumerate(zip(columns, style.shades(len(columns))), start=1):
         panel.plot(abscissa, values, color=colour, label=f"layer {number}" + (" (top)" if number == 1 else ""))
     panel.set_ylabel(label)
 
@@ -59,14 +48,14 @@ def draw_record(series, results, options):
     axes[0].set_ylabel("fines that\nhave left (%)")
     axes[1].plot(abscissa, [1e3 * v for v in series["superficial_velocity_z_m_per_s"]], color=style.COLOURS["blue"])
     axes[1].set_ylabel("velocity\n(mm/s)")
-    gradients = layers_of(series, "hydraulic_gradient_layer")
+    gradients = numbered(series, "hydraulic_gradient_layer_")
     means = [sum(row) / len(row) for row in zip(*gradients)]
     floor = 0.05 * max(abs(mean) for mean in means)
     over = [[g / mean if abs(mean) > floor else float("nan") for g, mean in zip(layer, means)] for layer in gradients]
     draw_layers(axes[2], abscissa, over, "gradient of layer\nover mean (−)")
     axes[2].legend(fontsize=7, ncols=4, loc="lower left", bbox_to_anchor=(0, 1))
-    draw_layers(axes[3], abscissa, [[100 * v for v in layer] for layer in layers_of(series, "fines_share_layer")], "fines\ncontent (%)")
-    draw_layers(axes[4], abscissa, layers_of(series, "coordination_layer"), "Z (−)")
+    draw_layers(axes[3], abscissa, [[100 * v for v in layer] for layer in numbered(series, "fines_share_layer_")], "fines\ncontent (%)")
+    draw_layers(axes[4], abscissa, numbered(series, "coordination_layer_"), "Z (−)")
     axes[5].plot(abscissa, series["platen_stress_pa"], color=style.COLOURS["sky"], label="upper platen")
     axes[5].plot(abscissa, series["base_stress_pa"], color=style.COLOURS["blue"], label="lower platen")
     axes[5].set_ylabel("stress (Pa)")

@@ -44,3 +44,11 @@ class TimeSeries:
 
     def last(self, name):
         return self.columns[name][-1] if name in self.columns else math.nan
+
+
+def numbered(series, prefix):
+    """The columns prefix1, prefix2, ... as far as they go."""
+    found = []
+    while f"{prefix}{len(found) + 1}" in series:
+        found.append(series[f"{prefix}{len(found) + 1}"])
+    return found
