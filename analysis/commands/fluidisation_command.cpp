@@ -11,10 +11,12 @@
 
 #include "commands/criteria_table.h"
 #include "commands/fluidisation_layers.h"
+#include "commands/onset_table.h"
 #include "commands/output_options.h"
 #include "commands/result_rows.h"
 #include "suffuse/analysis/flow_record.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/constraint_ratio.h"
 #include "suffuse/micromechanics/fluidisation.h"
 #include "suffuse/micromechanics/layers.h"
@@ -29,7 +31,7 @@ constexpr const char* kWho = "fluidisation";
 
 struct Options {
   OutputOptions outputs;
-  std::string file, grading, output, json;
+  std::string file, grading, output, json, onset;
   double grain_density = 2650;
   SeepageFluid fluid;
   std::vector<double> window{0.2, 0.8};
@@ -56,10 +58,11 @@ void check(const Options& options) {
          "be between 0 and 1");
   if (options.height) must(*options.height > 0, "--height", *options.height, "be > 0");
   must(options.layers.friction >= 0, "--friction", options.layers.friction, "be >= 0");
-  const bool writes = !options.layers.measures.empty() || !options.layers.distributions.empty();
+  const bool writes =
+      !options.layers.measures.empty() || !options.layers.distributions.empty() || !options.onset.empty();
   if (writes && options.layers.files.empty())
-    throw_user_error({kWho, "--measures, --distributions", "without --dumps", "have dumps to be made from",
-                      "add --dumps 'grains.*.dump' 'contacts.*.dump'"});
+    throw_user_error({kWho, "--measures, --distributions, --onset", "without --dumps",
+                      "have dumps to be made from", "add --dumps 'grains.*.dump' 'contacts.*.dump'"});
 }
 
 /// A run, read and measured.
@@ -210,22 +213,14 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Options& opt
            "does not follow from Terzaghi at its own porosity (needs n = 0.313)");
 }
 
-/// S² of the layers' void ratios at rest (thesis eq 6.1), with and without the bottom layer.
+/// With and without the bottom layer, where it is one that touches the floor; the thesis leaves it out.
 void add_homogeneity(ResultRows& rows, const Run& run) {
-  std::vector<double> ratios;
-  for (const double porosity : run.record.layer_porosity) ratios.push_back(porosity / (1 - porosity));
-  if (ratios.size() < 3) return;
-  // The void ratio of layers of equal volume together, from their mean share of solids.
-  const auto together = [](std::span<const double> e) {
-    double solids = 0;
-    for (const double ratio : e) solids += 1 / (1 + ratio) / static_cast<double>(e.size());
-    return 1 / solids - 1;
-  };
-  const std::span<const double> upper(ratios.data(), ratios.size() - 1);
-  rows.add("variance of the layers' void ratios", "S2", void_ratio_variance(ratios, together(ratios)), "-",
-           "jiang2003", "thesis: 2.72e-5 in ten layers");
-  rows.add("  without the bottom layer", "S2", void_ratio_variance(upper, together(upper)), "-", "jiang2003",
-           "");
+  const auto variance = layer_variance(run.record);
+  if (!variance) return;
+  rows.add("variance of the layers' void ratios", "S2", variance->all, "-", "jiang2003",
+           "thesis: 2.72e-5 in ten layers");
+  if (run.record.layers_on_floor)
+    rows.add("  without the bottom layer", "S2", variance->upper, "-", "jiang2003", "");
 }
 
 /// What the contact network of the whole bed is like at the onset, where the monitor has it.
@@ -278,6 +273,20 @@ void add_layers(ResultRows& rows, const Run& run, const Options& options) {
   }
 }
 
+void write_onset(const Options& options, const Run& run, const LayerResults& layers) {
+  OnsetOfRun onset;
+  if (const auto variance = layer_variance(run.record))
+    onset.variance = run.record.layers_on_floor ? variance->upper : variance->all;
+  if (run.result.onset) {
+    onset.gradient = onset_gradient(run).first;
+    onset.lowest_gradient = run.states[run.result.onset->state - 1].gradient.back();
+  }
+  onset.thesis_soil = is_soil_of_thesis(options);
+  SafeFile file(options.onset, "fluidisation --onset");
+  file.write(onset_table(layers, onset));
+  file.commit();
+}
+
 /// DEM step of the last state at rest.
 std::optional<double> onset_step(const Run& run, const NumberTable& table) {
   const auto* steps = table.find("dem_step");
@@ -303,8 +312,11 @@ void run_command(Options& options) {
   const Run run = measured(options, table);
   const ResultRows rows = rows_of(options, run, table);
   std::string layers;
-  if (!options.layers.files.empty())
-    layers = layer_measures(options.layers, table, run.record, onset_step(run, table));
+  if (!options.layers.files.empty()) {
+    LayerResults results = layer_measures(options.layers, table, run.record, onset_step(run, table));
+    if (!options.onset.empty()) write_onset(options, run, results);
+    layers = std::move(results.text);
+  }
   if (!options.output.empty()) rows.write_csv(options.output, kWho);
   if (!options.json.empty()) rows.write_json(options.json, kWho);
   fmt::print("{}{}", rows.text(), layers);
@@ -348,6 +360,9 @@ void add_fluidisation(CLI::App& app) {
                        "CSV file: a row a snapshot and layer (needs --dumps)");
   options->outputs.add(*command, "--distributions", options->layers.distributions,
                        "CSV file: distributions of contacts a grain and of S_i (needs --dumps)");
+  options->outputs.add(
+      *command, "--onset", options->onset,
+      "CSV file: the thesis's quantities at rest and as the bed begins to move (needs --dumps)");
   command->add_option("--bounds", options->layers.bounds, "LOW HIGH of the layers, m, for the dumps")
       ->expected(2)
       ->needs(dumps);

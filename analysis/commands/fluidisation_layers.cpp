@@ -87,7 +87,9 @@ HeightLayers layers_of(const LayerOptions& options, const NumberTable& table, co
     if (!height)
       throw_user_error(
           {kWho, table.path(), "no column layers_height_m", "have it", "or give --bounds LOW HIGH"});
-    layers.high = height->front();
+    const auto* top = table.find("layers_top_m");
+    layers.high = (top ? top : height)->front();
+    if (const auto* floor = table.find("layers_floor_m")) layers.low = floor->front();
   } else {
     layers.low = options.bounds[0];
     layers.high = options.bounds[1];
@@ -98,17 +100,9 @@ HeightLayers layers_of(const LayerOptions& options, const NumberTable& table, co
   return layers;
 }
 
-/// One layer (or all of them) in one snapshot.
-struct Measured {
-  LayerNetwork network;
-  BrokenContacts broken;
-  double gradient = 0;
-  std::optional<double> stress_ratio;
-};
-
-struct SnapshotMeasures {
-  double step = 0, time = 0;
-  std::vector<Measured> layers;  ///< the last is of all
+/// Sizes of the bed's own grains, m.
+struct SizesOfBed {
+  double d50 = 0, d85 = 0;
 };
 
 /// The files, written as the snapshots come.
@@ -122,7 +116,8 @@ class Files {
           "number,"
           "stable_share,broken_contacts_net,broken_contacts_gross,sliding_share,strong_share,mean_normal_"
           "force_n,"
-          "constraint_ratio,verdict\n");
+          "constraint_ratio,verdict,strong_stress_share,coordination_median,coordination_d50,coordination_"
+          "d85\n");
     }
     if (!options.distributions.empty()) {
       distributions_.emplace(options.distributions, "fluidisation --distributions");
@@ -134,30 +129,33 @@ class Files {
     if (!measures_) return;
     const double bed = snapshot.layers.back().gradient;
     for (std::size_t k = 0; k < snapshot.layers.size(); ++k) {
-      const Measured& layer = snapshot.layers[k];
+      const LayerMeasures& layer = snapshot.layers[k];
       const LayerNetwork& network = layer.network;
       measures_->write(fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.step, snapshot.time,
+          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.step, snapshot.time,
           name(k, snapshot.layers.size()), bed, layer.gradient,
           layer.stress_ratio ? full_precision(*layer.stress_ratio) : "", network.grains, network.contacts,
           network.coordination, network.stable_share, layer.broken.net, layer.broken.gross,
           network.sliding_share, network.strong_share, network.mean_normal_force, network.constraint_ratio,
-          to_string(hydromechanical_state(network.constraint_ratio))));
+          to_string(hydromechanical_state(network.constraint_ratio)), network.strong_stress_share,
+          layer.median_coordination, layer.coordination_d50, layer.coordination_d85));
     }
   }
 
+  /// `rest`: the layers' mean normal forces in the first snapshot, N.
   void write_distributions(const SnapshotMeasures& snapshot, const Packing& packing,
-                           const HeightLayers& layers, const SlidingRule& rule, double d50, double d85) {
+                           const HeightLayers& layers, const SlidingRule& rule, const SizesOfBed& sizes,
+                           const std::vector<double>& rest) {
     if (!distributions_) return;
     for (std::size_t k = 0; k < snapshot.layers.size(); ++k) {
       const auto layer =
           k + 1 < snapshot.layers.size() ? std::optional<int>(static_cast<int>(k)) : std::nullopt;
       const std::string head = fmt::format("{},{},{},{}", snapshot.step, snapshot.time,
                                            name(k, snapshot.layers.size()), snapshot.layers.back().gradient);
-      const std::array<std::pair<const char*, double>, 3> sizes{{{"contacts_of_all_grains", 0},
-                                                                 {"contacts_of_d50_and_larger", d50},
-                                                                 {"contacts_of_d85_and_larger", d85}}};
-      for (const auto& [title, least] : sizes) {
+      const std::array<std::pair<const char*, double>, 3> titles{{{"contacts_of_all_grains", 0},
+                                                                  {"contacts_of_d50_and_larger", sizes.d50},
+                                                                  {"contacts_of_d85_and_larger", sizes.d85}}};
+      for (const auto& [title, least] : titles) {
         const ContactCounts counts = coordination_distribution(packing, layers, layer, least);
         for (std::size_t c = 0; c < counts.size(); ++c)
           distributions_->write(fmt::format("{},{},{},{},{}\n", head, title, c,
@@ -168,6 +166,12 @@ class Files {
         distributions_->write(fmt::format("{},slipping_index,{:g},{:g},{}\n", head,
                                           0.1 * static_cast<double>(b),
                                           std::min(1.0, 0.1 * static_cast<double>(b + 1)), slipping[b]));
+      const ForceShares forces = normal_force_distribution(packing, layers, layer, rest[k]);
+      for (std::size_t b = 0; b < forces.size(); ++b)
+        distributions_->write(fmt::format(
+            "{},normal_force_over_mean_at_rest,{:g},{},{}\n", head, kForceBin * static_cast<double>(b),
+            b + 1 < forces.size() ? fmt::format("{:g}", kForceBin * static_cast<double>(b + 1)) : "",
+            forces[b]));
     }
   }
 
@@ -187,25 +191,25 @@ class Files {
 std::string table_of(const SnapshotMeasures& snapshot, const char* when) {
   std::string text = fmt::format("\n{}: step {:.0f}, {:.4g} s, i = {:.4f}\n", when, snapshot.step,
                                  snapshot.time, snapshot.layers.back().gradient);
-  text += "layer  sigma'/0        Z      M_s  B_R net    gross      S_c   strong        R\n";
+  text += "layer  sigma'/0        Z      M_s  B_R net    gross      S_c   strong   stress        R\n";
   for (std::size_t k = 0; k < snapshot.layers.size(); ++k) {
-    const Measured& layer = snapshot.layers[k];
+    const LayerMeasures& layer = snapshot.layers[k];
     const LayerNetwork& network = layer.network;
-    text +=
-        fmt::format("{:>5} {:>9} {:>8.3f} {:>8.3f} {:>7.1f}% {:>7.1f}% {:>7.1f}% {:>7.1f}% {:>8.3f}  {}\n",
-                    k + 1 < snapshot.layers.size() ? std::to_string(k + 1) : "all",
-                    layer.stress_ratio ? fmt::format("{:.3f}", *layer.stress_ratio) : "",
-                    network.coordination, network.stable_share, 100 * layer.broken.net,
-                    100 * layer.broken.gross, 100 * network.sliding_share, 100 * network.strong_share,
-                    network.constraint_ratio, to_string(hydromechanical_state(network.constraint_ratio)));
+    text += fmt::format(
+        "{:>5} {:>9} {:>8.3f} {:>8.3f} {:>7.1f}% {:>7.1f}% {:>7.1f}% {:>7.1f}% {:>7.1f}% {:>8.3f}  {}\n",
+        k + 1 < snapshot.layers.size() ? std::to_string(k + 1) : "all",
+        layer.stress_ratio ? fmt::format("{:.3f}", *layer.stress_ratio) : "", network.coordination,
+        network.stable_share, 100 * layer.broken.net, 100 * layer.broken.gross, 100 * network.sliding_share,
+        100 * network.strong_share, 100 * network.strong_stress_share, network.constraint_ratio,
+        to_string(hydromechanical_state(network.constraint_ratio)));
   }
   return text;
 }
 
 }  // namespace
 
-std::string layer_measures(const LayerOptions& options, const NumberTable& table, const FlowRecord& record,
-                           std::optional<double> onset_step) {
+LayerResults layer_measures(const LayerOptions& options, const NumberTable& table, const FlowRecord& record,
+                            std::optional<double> onset_step) {
   const StepRecord steps(table, record);
   const HeightLayers layers = layers_of(options, table, record);
   ReadSettings settings;
@@ -215,7 +219,7 @@ std::string layer_measures(const LayerOptions& options, const NumberTable& table
   Files files(options);
   std::optional<LayerReference> reference;
   std::vector<double> strong;
-  double d50 = 0, d85 = 0;
+  SizesOfBed sizes;
   std::optional<SnapshotMeasures> at_rest, latest, at_onset;
   Snapshot snapshot;
   while (series->next(snapshot)) {
@@ -226,16 +230,19 @@ std::string layer_measures(const LayerOptions& options, const NumberTable& table
     if (!reference) {
       reference.emplace(snapshot.packing, layers);
       for (const LayerNetwork& network : networks) strong.push_back(network.mean_normal_force);
-      d50 = own_size_at(snapshot.packing, 0.5);
-      d85 = own_size_at(snapshot.packing, 0.85);
+      sizes = {own_size_at(snapshot.packing, 0.5), own_size_at(snapshot.packing, 0.85)};
     }
     const std::vector<BrokenContacts> broken = reference->broken(snapshot.packing);
     SnapshotMeasures measured{step, steps.time(step), {}};
-    for (std::size_t k = 0; k < networks.size(); ++k)
-      measured.layers.push_back(
-          {networks[k], broken[k], steps.gradient(k, step), steps.stress_ratio(k, step)});
+    for (std::size_t k = 0; k < networks.size(); ++k) {
+      const auto layer = k + 1 < networks.size() ? std::optional<int>(static_cast<int>(k)) : std::nullopt;
+      measured.layers.push_back({networks[k], broken[k], steps.gradient(k, step), steps.stress_ratio(k, step),
+                                 median_of(coordination_distribution(snapshot.packing, layers, layer, 0)),
+                                 mean_coordination(snapshot.packing, layers, layer, sizes.d50),
+                                 mean_coordination(snapshot.packing, layers, layer, sizes.d85)});
+    }
     files.write(measured);
-    files.write_distributions(measured, snapshot.packing, layers, rule, d50, d85);
+    files.write_distributions(measured, snapshot.packing, layers, rule, sizes, strong);
     if (!at_rest) at_rest = measured;
     if (onset_step && step <= *onset_step) at_onset = measured;
     latest = std::move(measured);
@@ -244,11 +251,14 @@ std::string layer_measures(const LayerOptions& options, const NumberTable& table
     throw_user_error({kWho, "--dumps", "no snapshot", fmt::format("be from the steps of {}", table.path()),
                       "give grains and contacts of the same run"});
   files.commit();
+  if (at_onset && at_onset->step <= at_rest->step) at_onset.reset();
   std::string text = table_of(*at_rest, "first snapshot");
-  if (at_onset && at_onset->step > at_rest->step)
-    text += table_of(*at_onset, "last snapshot before the bed moves");
+  if (at_onset) text += table_of(*at_onset, "last snapshot before the bed moves");
   if (latest->step > (at_onset ? at_onset->step : at_rest->step)) text += table_of(*latest, "last snapshot");
-  return text + "strong: f_N of at least the layer's mean in the first snapshot; R = Z(3 - 2 S_c)/12\n";
+  text +=
+      "strong: f_N of at least the layer's mean in the first snapshot; stress: their part of the vertical "
+      "one; R = Z(3 - 2 S_c)/12\n";
+  return {std::move(text), *std::move(at_rest), std::move(at_onset)};
 }
 
 }  // namespace suffuse::analysis

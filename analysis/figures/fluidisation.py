@@ -8,7 +8,7 @@ From the monitor file of a run, and what `suffuse-analyse fluidisation FLOW.csv 
   fluidisation.py --measures MEASURES.csv --distributions SHARES.csv --output contacts.png
 
 The last draws what `suffuse-analyse fluidisation --dumps ... --measures ... --distributions ...` wrote: contacts of the layers
-against the gradient, and distributions of contacts and of S_i at the first and the last snapshot (--step for another one).
+against the gradient, and distributions of contacts, of S_i and of normal forces at the first and the last snapshot (--step for another one).
 Several files after --output: the same figure in several formats. The slice is vertical, through the middle of y unless --position
 says where; grains are those of bed_grains.h5 beside the fields, cut by it. Pressure is that above the hydrostatic one.
 """
@@ -113,15 +113,16 @@ def rows_of(path, *needed):
 
 MEASURES = (("constraint_ratio", "constraint ratio R (−)"), ("coordination_number", "coordination number Z (−)"), ("stable_share", "M_s (−)"),
             ("broken_contacts_net", "contacts lost, net (−)"), ("broken_contacts_gross", "contacts lost, gross (−)"), ("sliding_share", "sliding contacts S_c (−)"),
-            ("strong_share", "strong contacts (−)"), ("effective_stress_ratio", "σ′/σ′₀ (−)"))
+            ("strong_share", "strong contacts (−)"), ("strong_stress_share", "stress on strong ones (−)"), ("coordination_d85", "Z of d ≥ d85 (−)"),
+            ("effective_stress_ratio", "σ′/σ′₀ (−)"))
 
 
 def draw_measures(figure, rows):
-    """Eight small panels against the layer's gradient, a line a layer."""
+    """Small panels against the layer's gradient, a line a layer."""
     import suffuse_style as style
 
     names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
-    axes = figure.subplots(4, 2, sharex=True).ravel()
+    axes = figure.subplots(len(MEASURES) // 2, 2, sharex=True).ravel()
     for panel, (column, label) in zip(axes, MEASURES):
         for name, colour in zip(names, style.shades(len(names))):
             points = [(float(row["layer_gradient"]), float(row[column])) for row in rows if row["layer"] == name and row[column]]
@@ -154,8 +155,25 @@ def draw_plot_of_three(panel, rows):
         axis.set_major_locator(ticker.MaxNLocator(4))
 
 
+def names_of(rows):
+    """Of the top layer and the lowest."""
+    names = sorted({row["layer"] for row in rows if row["layer"] != "all"}, key=int)
+    return names[:1] + names[1:][-1:]
+
+
+def draw_forces(panel, rows, names, look):
+    """Probability density of normal forces, as in thesis Fig. 6.4."""
+    import suffuse_style as style
+
+    for name, colour in zip(names, ("orange", "blue")):
+        own = [row for row in rows if row["layer"] == name and row["distribution"] == "normal_force_over_mean_at_rest" and row["high"]]
+        points = [((float(row["low"]) + float(row["high"])) / 2, float(row["share"]) / (float(row["high"]) - float(row["low"]))) for row in own if float(row["share"]) > 0]
+        if points:
+            panel.plot(*zip(*points), linestyle=look, color=style.COLOURS[colour], marker=".", markersize=3, label=f"layer {name}, i = {float(own[0]['bed_gradient']):.2f}")
+
+
 def draw_distributions(panels, rows, step):
-    """The whole bed at the first snapshot and at another one: contacts of grains by size, and S_i."""
+    """The first snapshot and another one: contacts of grains by size and S_i of the whole bed, normal forces of its top and lowest layer."""
     import suffuse_style as style
 
     steps = sorted({float(row["step"]) for row in rows})
@@ -170,6 +188,8 @@ def draw_distributions(panels, rows, step):
         points = [(float(row["low"]), float(row["share"])) for row in own if row["distribution"] == "slipping_index"]
         points.append((points[-1][0] + 0.1, points[-1][1]))  # the sliding ones, drawn as wide as the other bins
         panels[1].step(*zip(*points), where="post", linestyle=look, color=style.COLOURS["blue"], label=f"i = {gradient:.2f}")
+        draw_forces(panels[2], [row for row in rows if float(row["step"]) == at], names_of(rows), look)
+    panels[2].set(xlabel="normal force over the layer's mean at rest f_N/f_0 (−)", ylabel="probability density (−)", yscale="log")
     panels[0].set(xlabel="contacts of a grain Z (−; 12: and more)", ylabel="share of grains (−)")
     panels[1].set(xlabel="slipping index S_i (−; beyond 1: sliding)", ylabel="share of contacts (−)", yscale="log")
     for panel in panels:
@@ -180,12 +200,12 @@ def draw_contacts(measures, distributions, step, output):
     import suffuse_style as style
     from matplotlib import pyplot
 
-    figure = pyplot.figure(figsize=(2 * style.COLUMN_WIDTH, 7.2))
+    figure = pyplot.figure(figsize=(2 * style.COLUMN_WIDTH, 9))
     left, right = figure.subfigures(1, 2)
     draw_measures(left, rows_of(measures, "layer", "layer_gradient", "effective_stress_ratio", "constraint_ratio"))
-    draw_plot_of_three(right.add_subplot(2, 1, 1, projection="3d"), rows_of(measures, "layer"))
+    draw_plot_of_three(right.add_subplot(5, 1, (1, 2), projection="3d"), rows_of(measures, "layer"))
     if distributions:
-        panels = [right.add_subplot(4, 1, 3), right.add_subplot(4, 1, 4)]
+        panels = [right.add_subplot(5, 1, row) for row in (3, 4, 5)]
         draw_distributions(panels, rows_of(distributions, "step", "layer", "distribution", "low", "share"), step)
     for path in output:
         figure.savefig(path)

@@ -9,6 +9,7 @@
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/text_input.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/layers.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -139,7 +140,23 @@ FlowRecord flow_record(const NumberTable& table, const std::string& who, std::op
   if (const auto* layers_height = table.find("layers_height_m"); layers_height && layers_height->front() > 0)
     record.solids_over_layers =
         (1 - record.porosity) * table.column("bed_height_m").front() / 0.99 / layers_height->front();
+  if (const auto* floor = table.find("layers_floor_m")) record.layers_on_floor = !(floor->front() > 0);
   return record;
+}
+
+std::optional<LayerVariance> layer_variance(const FlowRecord& record) {
+  std::vector<double> ratios;
+  for (const double porosity : record.layer_porosity) ratios.push_back(porosity / (1 - porosity));
+  if (ratios.size() < 3) return std::nullopt;
+  // The void ratio of layers of equal volume together, from their mean share of solids.
+  const auto together = [](std::span<const double> e) {
+    double solids = 0;
+    for (const double ratio : e) solids += 1 / (1 + ratio) / static_cast<double>(e.size());
+    return 1 / solids - 1;
+  };
+  const std::span<const double> upper(ratios.data(), ratios.size() - 1);
+  return LayerVariance{micromechanics::void_ratio_variance(ratios, together(ratios)),
+                       micromechanics::void_ratio_variance(upper, together(upper))};
 }
 
 }  // namespace suffuse::analysis

@@ -27,6 +27,28 @@ void for_layer_and_all(int layer, int layers, Add add) {
   add(static_cast<std::size_t>(layers));
 }
 
+/// How many contacts are strong, and their part of the stress along the axis.
+void add_strong_contacts(std::vector<LayerNetwork>& networks, const Packing& packing,
+                         const HeightLayers& layers, const std::vector<double>& strong) {
+  std::vector<double> stress(networks.size());
+  for (const Contact& contact : packing.contacts) {
+    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
+    if (!layer) continue;
+    const double part = contact.force[layers.axis] * contact.branch[layers.axis];
+    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
+      const double threshold = strong.empty() ? networks[k].mean_normal_force : strong[k];
+      const bool is_strong = normal_force(contact) >= threshold;
+      networks[k].strong_share += is_strong;
+      networks[k].strong_stress_share += is_strong ? part : 0;
+      stress[k] += part;
+    });
+  }
+  for (std::size_t k = 0; k < networks.size(); ++k) {
+    networks[k].strong_share = share(networks[k].strong_share, networks[k].contacts);
+    networks[k].strong_stress_share = share(networks[k].strong_stress_share, stress[k]);
+  }
+}
+
 }  // namespace
 
 std::optional<int> HeightLayers::of(double height) const {
@@ -71,15 +93,7 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
     mean.mean = network.coordination;
     network.constraint_ratio = constraint_ratio(mean, network.sliding_share).mean;
   }
-  for (const Contact& contact : packing.contacts) {
-    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!layer) continue;
-    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
-      const double threshold = strong.empty() ? networks[k].mean_normal_force : strong[k];
-      networks[k].strong_share += normal_force(contact) >= threshold;
-    });
-  }
-  for (LayerNetwork& network : networks) network.strong_share = share(network.strong_share, network.contacts);
+  add_strong_contacts(networks, packing, layers, strong);
   return networks;
 }
 
@@ -140,6 +154,43 @@ ContactCounts coordination_distribution(const Packing& packing, const HeightLaye
     const auto own = layers.of(grain.position[layers.axis]);
     if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
     shares[std::min(static_cast<std::size_t>(counts[g]), shares.size() - 1)] += 1;
+  }
+  normalise(shares);
+  return shares;
+}
+
+double mean_coordination(const Packing& packing, const HeightLayers& layers, std::optional<int> layer,
+                         double least_diameter) {
+  double grains = 0, contacts = 0;
+  const std::vector<int> counts = contacts_per_grain(packing);
+  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
+    const Grain& grain = packing.grains[g];
+    const auto own = layers.of(grain.position[layers.axis]);
+    if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
+    grains += 1;
+    contacts += counts[g];
+  }
+  return share(contacts, grains);
+}
+
+int median_of(const ContactCounts& shares) {
+  double below = 0;
+  for (std::size_t count = 0; count < shares.size(); ++count) {
+    below += shares[count];
+    if (below >= 0.5) return static_cast<int>(count);
+  }
+  return 0;
+}
+
+ForceShares normal_force_distribution(const Packing& packing, const HeightLayers& layers,
+                                      std::optional<int> layer, double mean) {
+  ForceShares shares{};
+  if (!(mean > 0)) return shares;
+  for (const Contact& contact : packing.contacts) {
+    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
+    if (!own || (layer && *own != *layer)) continue;
+    const double bin = std::clamp(normal_force(contact) / mean / kForceBin, 0.0, shares.size() - 1.0);
+    shares[static_cast<std::size_t>(bin)] += 1;
   }
   normalise(shares);
   return shares;

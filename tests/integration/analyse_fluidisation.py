@@ -86,6 +86,17 @@ def contacts_dump(step, pairs):
     return DUMP_HEAD.format(step=step, what="ENTRIES", count=len(pairs)) + f"ITEM: ENTRIES {names}\n" + "\n".join(lines) + "\n"
 
 
+def onset_of_dumps(run):
+    """The table of the onset: the last snapshot before it, beside the thesis's numbers for its own soil only."""
+    table = {(row["quantity"], row["layer"]): row for row in rows(run.folder / "onset.csv")}
+    broken = table["broken contacts, gross", "all"]
+    expect(near(float(broken["at_onset"]), 1 / 14, 1e-4) and float(broken["at_rest"]) == 0, f"onset: {broken}")
+    expect(float(table["mechanically stable grains", "1"]["at_rest"]) == 0 and ("constraint ratio", "4") in table, "onset: top and lowest layer")
+    expect(all(row["thesis_at_onset"] == "" for row in table.values()), "another soil than the thesis's")
+    gradient = float(table["hydraulic gradient of the bed", "all"]["at_onset"])
+    expect(near(gradient, bed.BED_CRITICAL, 0.01), f"onset: gradient {gradient}")
+
+
 def dumped_layers(run):
     table = bed.rows(bed.ramp())
     for k, row in enumerate(table):
@@ -99,7 +110,7 @@ def dumped_layers(run):
     for step, pairs in ((0, rest), (2000, later)):
         run.write(f"grains.{step}.dump", grains_dump(step))
         run.write(f"contacts.{step}.dump", contacts_dump(step, pairs))
-    done = run("dumped.csv", "--dumps", "grains.*.dump", "contacts.*.dump", "--measures", "measures.csv", "--distributions", "shares.csv")
+    done = run("dumped.csv", "--dumps", "grains.*.dump", "contacts.*.dump", "--measures", "measures.csv", "--distributions", "shares.csv", "--onset", "onset.csv")
     expect(done.returncode == 0, f"dumps: {done.stderr}")
     found = {(row["step"], row["layer"]): row for row in rows(run.folder / "measures.csv")}
     expect(len(found) == 2 * (bed.LAYERS + 1), "two snapshots of four layers and all of them")
@@ -114,8 +125,17 @@ def dumped_layers(run):
     expect(near(float(found["0", "all"]["strong_share"]), 6 / 14, 1e-4), "strong contacts at rest")
     expect(near(float(whole["strong_share"]), 5 / 14, 1e-4), "and later, by the mean at rest")
     expect(near(float(whole["constraint_ratio"]), 1.75 * (3 - 2 / 14) / 12, 1e-4) and whole["verdict"] == "fluid-like", "R = Z(3 - 2 S_c)/12")
+    # Layers may begin above the floor: then what lies below is in none of them.
+    lifted = run.write("lifted.csv", bed.text([row | {"layers_floor_m": 2e-3, "layers_top_m": 6e-3} for row in table]))
+    done = run(lifted, "--dumps", "grains.*.dump", "contacts.*.dump", "--measures", "lifted_measures.csv")
+    counted = {row["layer"]: float(row["grains"]) for row in rows(run.folder / "lifted_measures.csv") if row["step"] == "0"}
+    expect(done.returncode == 0 and counted["all"] == 8 and "without the bottom layer" not in done.stdout, f"a floor layer left out: {counted}")
     gradient = float(whole["bed_gradient"])
     expect(near(gradient, sum(table[200][f"hydraulic_gradient_layer_{k}"] for k in (1, 2, 3, 4)) / 4, 1e-9), "gradient at the dump's step")
+    # Of the first column's contacts, 1 to 7 mm: forces are carried over 1 mm each, so the stress is shared as they are.
+    forces = [1e-3 * j**1.5 for j in range(1, 8)]
+    expect(near(float(found["0", "all"]["strong_stress_share"]), sum(forces[4:]) / sum(forces), 1e-3), "stress that strong contacts carry")
+    onset_of_dumps(run)
     shares = [row for row in rows(run.folder / "shares.csv") if row["step"] == "2000" and row["layer"] == "all"]
     slipping = [float(row["share"]) for row in shares if row["distribution"] == "slipping_index"]
     expect(near(slipping[-1], 1 / 14, 1e-4) and near(sum(slipping), 1, 1e-4), "S_i: one of 14 in the last bin")
@@ -200,6 +220,7 @@ def bad_input(run):
     refused(run, "window the wrong way round", "LOW HIGH", "ramp.csv", "--window", 0.8, 0.2)
     refused(run, "heavier fluid", "above the fluid's", "ramp.csv", "--fluid-density", 3000)
     refused(run, "measures without dumps", "--dumps", "ramp.csv", "--measures", "no.m.csv")
+    refused(run, "onset without dumps", "--dumps", "ramp.csv", "--onset", "no.o.csv")
     refused(run, "record without steps", "dem_step", "ramp.csv", "--dumps", "grains.*.dump", "contacts.*.dump", "--measures", "no.m.csv")
     rows_elsewhere = [row | {"dem_step": 1e6 + k, "layers_height_m": 8e-3} for k, row in enumerate(table)]
     refused(run, "dumps of another run", "no snapshot", run.write("elsewhere.csv", bed.text(rows_elsewhere)), "--dumps", "grains.*.dump", "contacts.*.dump")

@@ -49,6 +49,8 @@ TEST_CASE("networks of layers: contacts by their middle, grains by their centre,
   CHECK(found[2].constraint_ratio == Approx(1.6 * (3 - 0.5) / 12));
   CHECK(found[2].strong_share == Approx(0.5));  // 4 and 3 N against a mean of 2.5
   CHECK(layer_networks(stack(), kLayers, {}, {1.5, 3.5, 0.5})[2].strong_share == Approx(1));
+  CHECK(found[2].strong_stress_share == Approx(0.7));  // of 10 N that are carried over 1 mm each, 4 and 3
+  CHECK(layer_networks(stack(), kLayers, {}, {1.5, 3.5, 0.5})[0].strong_stress_share == Approx(2.0 / 3));
 }
 
 TEST_CASE("contacts lost by layers: gross by where they were, net by how many there are") {
@@ -78,6 +80,15 @@ TEST_CASE("distributions add up to one, and the sizes are those of the grains") 
   CHECK(all[1] == Approx(0.4));
   CHECK(all[2] == Approx(0.6));
   CHECK(coordination_distribution(packing, kLayers, std::nullopt, own_size_at(packing, 0.5))[1] == Approx(1));
+  CHECK(median_of(all) == 2);
+  CHECK(mean_coordination(packing, kLayers, std::nullopt, 0) == Approx(1.6));
+  CHECK(mean_coordination(packing, kLayers, 0, 2e-3) == Approx(1));
+  const ForceShares forces = normal_force_distribution(packing, kLayers, std::nullopt, 2);
+  CHECK(forces[2] == Approx(0.25));  // 1 N of a mean of 2
+  CHECK(forces[8] == Approx(0.25));  // 4 N
+  CHECK(normal_force_distribution(packing, kLayers, 1, 0.5)[24] ==
+        Approx(1));  // six and eight times the mean
+  CHECK(normal_force_distribution(packing, kLayers, 1, 0)[24] == 0);
   const SlippingShares slipping = slipping_distribution(packing, kLayers, std::nullopt, {});
   CHECK(slipping[0] == Approx(0.75));
   CHECK(slipping[10] == Approx(0.25));

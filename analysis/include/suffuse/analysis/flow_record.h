@@ -46,7 +46,16 @@ struct FlowRecord {
   std::optional<double> solids_over_layers;
   std::vector<double> layer_porosity;  ///< at rest; empty where it is not watched
   bool stress_in_pa = false;           ///< else ratios to the first sample
+  bool layers_on_floor = true;         ///< does the lowest layer touch it (column layers_floor_m is 0)?
 };
+
+/// S² of the layers' void ratios at rest (thesis eq 6.1).
+struct LayerVariance {
+  double all = 0;
+  double upper = 0;  ///< without the lowest layer
+};
+/// None for fewer than three layers.
+std::optional<LayerVariance> layer_variance(const FlowRecord& record);
 
 /// `height`: of the bed, m, where the file does not tell it. Throws UserError where a column is missing or
 /// the bed has no porosity.

@@ -31,7 +31,9 @@ struct LayerNetwork {
   double mean_normal_force = 0;  ///< N
   double sliding_share = 0;      ///< S_c
   double strong_share = 0;       ///< contacts with f_N of at least the threshold
-  double constraint_ratio = 0;   ///< R = Z(3 − 2 S_c)/12 (eq 6.7)
+  /// Of the stress along the axis, Σ f l over the layer's contacts (eqs 6.3, 6.4), that of the strong ones.
+  double strong_stress_share = 0;
+  double constraint_ratio = 0;  ///< R = Z(3 − 2 S_c)/12 (eq 6.7)
 };
 
 /// One entry a layer, then one for all of them together. `strong`: the thresholds of the entries, N; empty:
@@ -64,6 +66,22 @@ using ContactCounts = std::array<double, 13>;
 /// such grains.
 ContactCounts coordination_distribution(const Packing& packing, const HeightLayers& layers,
                                         std::optional<int> layer, double least_diameter);
+
+/// Mean number of contacts of the same grains; 0 without such grains.
+double mean_coordination(const Packing& packing, const HeightLayers& layers, std::optional<int> layer,
+                         double least_diameter);
+
+/// The smallest number of contacts that at least half of the grains reach or stay below: the median of a
+/// distribution; 0 where all shares are.
+int median_of(const ContactCounts& shares);
+
+/// Shares of contacts by f_N/f_0 (thesis Fig. 6.4): bins of 0.25 up to 6, and those above. A share over the
+/// bin's width is the probability density.
+inline constexpr double kForceBin = 0.25;
+using ForceShares = std::array<double, 25>;
+/// `mean`: f_0, N, the layer's mean in the reference state. All 0 without contacts or where it is not > 0.
+ForceShares normal_force_distribution(const Packing& packing, const HeightLayers& layers,
+                                      std::optional<int> layer, double mean);
 
 /// Shares of contacts by their slipping index S_i (eq 6.6): ten bins of 0.1 up to 1, and the sliding ones.
 using SlippingShares = std::array<double, 11>;
