@@ -12,6 +12,7 @@
 #include "commands/fluidisation_command.h"
 #include "commands/grading_command.h"
 #include "commands/hydraulic_command.h"
+#include "commands/lifting_command.h"
 #include "commands/reproduce_command.h"
 #include "commands/rose_command.h"
 #include "commands/sample_command.h"
@@ -67,6 +68,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_constriction(app);
   suffuse::analysis::add_hydraulic(app);
   suffuse::analysis::add_fluidisation(app);
+  suffuse::analysis::add_lifting(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
   suffuse::analysis::add_shear(app);

@@ -252,4 +252,29 @@ std::optional<double> gradient_at_fall(std::span<const double> gradient, std::sp
   return std::nullopt;
 }
 
+Lifting measure_lifting(std::span<const double> velocity, std::span<const double> drop, double low,
+                        double high) {
+  const std::vector<std::size_t> window = window_of(drop, low, high);
+  if (window.size() < 3)
+    throw_user_error({"lifting", "samples with a drop in the window", fmt::format("{}", window.size()),
+                      fmt::format("be at least three between {:g} and {:g} of the weight", low, high),
+                      "a faster flow, or samples more often"});
+  const auto line = fit_line(picked(velocity, window), picked(drop, window));
+  if (!line || !(line->slope > 0))
+    throw_user_error({"lifting", "pressure drop in the window", "does not rise with the velocity",
+                      "be that of a packed bed", ""});
+  Lifting lifting;
+  lifting.packed = *line;
+  lifting.velocity = (1 - line->intercept) / line->slope;
+  double sum = 0, count = 0;
+  for (std::size_t k = 0; k < drop.size(); ++k) {
+    lifting.largest = std::max(lifting.largest, drop[k]);
+    if (velocity[k] < 1.3 * lifting.velocity) continue;
+    sum += drop[k];
+    ++count;
+  }
+  if (count > 0) lifting.floating = sum / count;
+  return lifting;
+}
+
 }  // namespace suffuse::micromechanics

@@ -53,4 +53,13 @@ double velocity_ergun(double gradient, double diameter, double porosity, const S
   return std::copysign(velocity, gradient);
 }
 
+double minimum_fluidisation_wen_yu(double diameter, double grain_density, const SeepageFluid& fluid) {
+  const double nu = fluid.kinematic_viscosity;
+  const double archimedes =
+      std::pow(diameter, 3) * (grain_density / fluid.density - 1) * fluid.gravity / (nu * nu);
+  // sqrt(a² + x) - a in the form that keeps its digits for small grains.
+  const double square = 0.0408 * archimedes;
+  return nu / diameter * square / (std::sqrt(33.7 * 33.7 + square) + 33.7);
+}
+
 }  // namespace suffuse::micromechanics

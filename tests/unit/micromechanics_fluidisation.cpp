@@ -156,3 +156,20 @@ TEST_CASE("where a quantity falls below a level, single samples left out") {
   CHECK_FALSE(gradient_at_fall(gradient, values, 0.5));
   CHECK_FALSE(gradient_at_fall(gradient, values, 2));
 }
+
+TEST_CASE("lifting: the packed line meets the weight, whatever the hump before the bed floats") {
+  std::vector<double> velocity, drop;
+  for (int k = 0; k <= 200; ++k) {
+    const double v = 1e-5 * k;
+    velocity.push_back(v);
+    drop.push_back(v < 1.1e-3 ? v / 1e-3 : 0.98);  // packed until 1.1 of the weight, then 0.98
+  }
+  const Lifting lifting = measure_lifting(velocity, drop);
+  CHECK(lifting.velocity == Approx(1e-3));
+  CHECK(lifting.largest == Approx(1.09));
+  CHECK(lifting.floating == Approx(0.98));
+  CHECK_THROWS_AS(measure_lifting(std::span(velocity).first(10), std::span(drop).first(10)),
+                  suffuse::UserError);
+  std::reverse(velocity.begin(), velocity.end());
+  CHECK_THROWS_AS(measure_lifting(velocity, drop), suffuse::UserError);
+}

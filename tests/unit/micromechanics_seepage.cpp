@@ -48,3 +48,13 @@ TEST_CASE("Ergun's velocity: viscous at small gradients, and a root of the equat
   // At Terzaghi's gradient, the least velocity of fluidisation: 1.0972e-3 m/s for d50 = 0.3467 mm.
   CHECK(velocity_ergun(critical_gradient(n, 2650), 0.3467e-3, n) == Approx(1.0972e-3).epsilon(1e-4));
 }
+
+TEST_CASE(
+    "Wen and Yu's least velocity of fluidisation: Re 0.00061 Ar for fine grains, by hand for coarse ones") {
+  // Fine: √(a² + x) − a = x/2a.
+  const double fine = 1e-5, archimedes = 1e-15 * 1.65 * 9.81 / 1e-12;
+  CHECK(minimum_fluidisation_wen_yu(fine, 2650) ==
+        Approx(0.0408 * archimedes / 67.4 * 1e-6 / fine).epsilon(1e-6));
+  // 2 mm quartz in water: Ar = 129,492, Re = √(1135.69 + 5283.27) − 33.7 = 46.42.
+  CHECK(minimum_fluidisation_wen_yu(2e-3, 2650) == Approx(46.42e-6 / 2e-3).epsilon(1e-3));
+}

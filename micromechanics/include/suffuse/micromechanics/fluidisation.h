@@ -118,4 +118,19 @@ Fluidisation measure_fluidisation(std::span<const FlowState> states, double crit
 std::optional<double> gradient_at_fall(std::span<const double> gradient, std::span<const double> values,
                                        double level, std::size_t in_a_row = 1);
 
+/// The curve of pressure drop over velocity of a bed that is lifted (thesis Fig. 3.8): while it is packed the
+/// drop rises with the velocity, once it floats it is the weight of the grains in the fluid.
+struct Lifting {
+  LineFit packed;       ///< of drop over weight against velocity, through the window
+  double velocity = 0;  ///< where that line meets the weight: the least velocity of fluidisation, m/s
+  double largest = 0;   ///< drop over weight
+  double floating = 0;  ///< mean of drop over weight from 1.3 times `velocity` on; 0 where none is as fast
+};
+
+/// `drop`: over the weight of the grains in the fluid on the same area, of rising `velocity` (m/s, upwards).
+/// The line is fitted to the states until the drop has passed `high` for good, of those between `low` and
+/// `high`. Throws UserError where fewer than three are.
+Lifting measure_lifting(std::span<const double> velocity, std::span<const double> drop, double low = 0.2,
+                        double high = 0.7);
+
 }  // namespace suffuse::micromechanics
