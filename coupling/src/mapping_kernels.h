@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "suffuse/coupling/mapped_sphere.h"
+#include "suffuse/simd/declare.h"
 
 namespace suffuse::coupling {
 
@@ -65,9 +66,7 @@ struct SliceNotes {
   void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held,        \
                  const SliceNotes& notes, LatticeLoad* loads);                                 \
   }
-SUFFUSE_DECLARE_MAPPING(portable)
-SUFFUSE_DECLARE_MAPPING(avx2)
-SUFFUSE_DECLARE_MAPPING(avx512)
+SUFFUSE_FOR_EACH_INSTRUCTION_SET(SUFFUSE_DECLARE_MAPPING)
 #undef SUFFUSE_DECLARE_MAPPING
 
 }  // namespace suffuse::coupling

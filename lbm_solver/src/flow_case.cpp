@@ -167,13 +167,9 @@ void read_lattice(const std::string& file, const toml::table& root, FlowCase& fl
       choose<Precision>(lattice, "precision", lattice.text("precision").value_or("double"),
                         {{"double", Precision::double_precision}, {"float", Precision::float_precision}});
   flow.collision.collision_operator =
-      choose<CollisionOperator>(lattice, "collision", lattice.text("collision").value_or("trt"),
-                                {{"bgk", CollisionOperator::bgk},
-                                 {"trt", CollisionOperator::trt},
-                                 {"trt_comoving", CollisionOperator::trt_comoving},
-                                 {"central_moments", CollisionOperator::central_moments}});
+      choose(lattice, "collision", lattice.text("collision").value_or("trt"), collision_words());
   if (lattice.find("magic") != nullptr && !has_magic(flow.collision.collision_operator))
-    throw_user_error({lattice.who(), "magic", "given", "go with trt or trt_comoving", "drop it"});
+    throw_user_error({lattice.who(), "magic", "given", "go with " + words_with_magic(), "drop it"});
   flow.collision.magic = lattice.positive("magic").value_or(flow.collision.magic);
   flow.collision.smagorinsky = lattice.not_negative("smagorinsky").value_or(0);
   flow.collision.incompressible = lattice.truth("incompressible").value_or(false);
