@@ -363,10 +363,12 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
   }
   for (const OutputRequest& other : settings.outputs)
     refuse_repeated(reader, "output " + output.id, other.id == output.id);
-  static const std::map<std::string, lbm::Field> fields{{"velocity", lbm::Field::velocity},
-                                                        {"pressure", lbm::Field::pressure},
-                                                        {"density", lbm::Field::density},
-                                                        {"solid_fraction", lbm::Field::solid_fraction}};
+  std::map<std::string, lbm::Field> fields;
+  std::string known = "every, file, ";
+  for (const lbm::FieldFacts& facts : lbm::kFields) {
+    fields[facts.word] = facts.field;
+    known += facts.word + std::string(", ");
+  }
   while (!reader.done()) {
     if (reader.keyword("every")) {
       output.every = reader.positive("every");
@@ -386,7 +388,7 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
             std::find(output.fields.begin(), output.fields.end(), field->second) != output.fields.end());
         output.fields.push_back(field->second);
       } else
-        reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains, contacts");
+        reader.unknown(word, known + "grains, contacts");
     }
   }
   if (output.every <= 0 || output.file.empty())

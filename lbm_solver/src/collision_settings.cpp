@@ -24,9 +24,10 @@ std::string name_of(CollisionOperator collision_operator) {
   return facts_of(collision_operator).word;
 }
 
-std::map<std::string, CollisionOperator> collision_words() {
-  std::map<std::string, CollisionOperator> words;
-  for (const CollisionFacts& facts : kCollisionOperators) words[facts.word] = facts.collision_operator;
+std::vector<std::pair<std::string, CollisionOperator>> collision_words() {
+  std::vector<std::pair<std::string, CollisionOperator>> words;
+  for (const CollisionFacts& facts : kCollisionOperators)
+    words.emplace_back(facts.word, facts.collision_operator);
   return words;
 }
 

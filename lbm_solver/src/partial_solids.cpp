@@ -12,9 +12,9 @@ std::string name_of(SolidOperator solid_operator) {
   return facts_of(solid_operator).word;
 }
 
-std::map<std::string, SolidOperator> solid_words() {
-  std::map<std::string, SolidOperator> words;
-  for (const SolidFacts& facts : kSolidOperators) words[facts.word] = facts.solid_operator;
+std::vector<std::pair<std::string, SolidOperator>> solid_words() {
+  std::vector<std::pair<std::string, SolidOperator>> words;
+  for (const SolidFacts& facts : kSolidOperators) words.emplace_back(facts.word, facts.solid_operator);
   return words;
 }
 

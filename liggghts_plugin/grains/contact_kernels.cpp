@@ -11,6 +11,8 @@ using namespace simd::SUFFUSE_KERNEL_NAMESPACE;
 
 namespace {
 
+using simd::SUFFUSE_KERNEL_NAMESPACE::store;
+
 constexpr int kBlock = 512;  // candidates that are searched at a time
 
 [[gnu::always_inline]] inline Four load(const Quad& from) {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "suffuse/lbm/collision_operators.h"
 
@@ -45,7 +46,8 @@ void check(const CollisionSettings& settings);
 /// Its word in scripts.
 std::string name_of(CollisionOperator collision_operator);
 
-std::map<std::string, CollisionOperator> collision_words();
+/// Words and what they mean, in the order of the list.
+std::vector<std::pair<std::string, CollisionOperator>> collision_words();
 
 /// "trt or trt_comoving": for messages.
 std::string words_with_magic();

@@ -2,9 +2,10 @@
 
 #include <array>
 #include <cstddef>
-#include <map>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "suffuse/common/linear_algebra.h"
 #include "suffuse/lbm/solid_operators.h"
@@ -21,7 +22,7 @@ struct PartialSolidSettings {
 };
 
 std::string name_of(SolidOperator solid_operator);
-std::map<std::string, SolidOperator> solid_words();
+std::vector<std::pair<std::string, SolidOperator>> solid_words();
 std::string name_of(SolidWeighting weighting);
 
 /// A UserError where the settings cannot work: a coefficient that is not positive, coefficients with another
