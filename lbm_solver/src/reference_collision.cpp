@@ -158,6 +158,16 @@ CellPopulations central_moments(const CellPopulations& f, const CollisionSetting
   return populations_of(k, u);
 }
 
+/// Fourth moments of a Gaussian with these second ones: fourth cumulants are zero.
+CellPopulations cumulants(const CellPopulations& f, const CollisionSettings& settings, double density,
+                          const Vec3& u, const Vec3& force) {
+  Vector k = relaxed_moments(f, settings, density, u, force);
+  k[16] = (k[4] * k[5] + 2 * k[7] * k[7]) / density;
+  k[17] = (k[4] * k[6] + 2 * k[8] * k[8]) / density;
+  k[18] = (k[5] * k[6] + 2 * k[9] * k[9]) / density;
+  return populations_of(k, u);
+}
+
 }  // namespace
 
 CellPopulations reference_collision(const CellPopulations& populations, const CollisionSettings& settings,

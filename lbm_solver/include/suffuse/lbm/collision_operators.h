@@ -16,7 +16,8 @@ namespace suffuse::lbm {
   OPERATOR(bgk, two_rates, one, 0, "one relaxation time (thesis eqs 3.20-3.22)") \
   OPERATOR(trt, two_rates, magic, 0, "two relaxation times: odd parts tied to the viscosity's by `magic`") \
   OPERATOR(trt_comoving, comoving_rates, magic, 0, "`trt` about the local velocity: for beds that carry their water along fast") \
-  OPERATOR(central_moments, central_moments, own, 0.503, "moments about the local velocity: for relaxation times near 0.5")
+  OPERATOR(central_moments, central_moments, own, 0.503, "moments about the local velocity: for relaxation times near 0.5") \
+  OPERATOR(cumulants, cumulants, own, 0, "as `central_moments`, fourth cumulants set to zero")
 // clang-format on
 
 enum class CollisionOperator {
