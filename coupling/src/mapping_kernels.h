@@ -10,8 +10,7 @@ namespace suffuse::coupling {
 /// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
 inline constexpr float kLeastLinearRadius = 1;
 
-/// A cell's coefficient is cut here where spheres and pores bring their own.
-inline constexpr float kLargestCellCoefficient = 60;
+inline constexpr float kLargestCellCoefficient = static_cast<float>(kLargestCoefficient);
 
 /// How fractions are written.
 struct FractionRule {

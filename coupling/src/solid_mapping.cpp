@@ -12,8 +12,6 @@ namespace suffuse::coupling {
 
 namespace {
 
-static_assert(double{kLargestCellCoefficient} == kLargestCoefficient);
-
 /// Beyond radius + this a cell's centre is too far for the sphere to cover any of the cell.
 double reach_beyond_radius(FractionMethod method, double radius) {
   return method == FractionMethod::linear && radius >= kLeastLinearRadius ? 0.5 : 0.8660255;

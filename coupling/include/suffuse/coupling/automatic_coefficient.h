@@ -27,9 +27,6 @@ struct CoefficientLaw : lbm::CoefficientTerms {
   double operator()(double diameter, double surface_per_pore) const;
 };
 
-/// Coefficients beyond this are cut: strengths add up exactly in any order up to here.
-inline constexpr double kLargestCoefficient = 60;
-
 /// The law of an operator (suffuse/lbm/solid_operators.h). A UserError for one that has none.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
