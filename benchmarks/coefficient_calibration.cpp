@@ -67,7 +67,7 @@ int main(int argc, char** argv) {
                  "force, sc1, sc2, sc3; interpolated or halfway: link-wise, another method");
   app.add_option("--weighting", weighting, "fraction, noble_torczynski, viscosity_independent");
   app.add_option("--fraction", fraction, "exact, linear, subcells");
-  app.add_option("--collision", collision, "trt, trt_comoving, bgk");
+  app.add_option("--collision", collision, "see `lbm collision`");
   app.add_option("--magic", run.magic, "of trt");
   app.add_option("--law", law, "constant,single,crowded,narrow of the automatic coefficient");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
@@ -78,18 +78,18 @@ int main(int argc, char** argv) {
   app.add_flag("--header,!--no-header", header, "first row with names");
   CLI11_PARSE(app, argc, argv);
   MPI_Init(&argc, &argv);
-  for (const auto o : {lbm::SolidOperator::sc1, lbm::SolidOperator::sc2, lbm::SolidOperator::sc3})
-    if (solid_operator == lbm::name_of(o)) run.solid_operator = o;
+  for (const lbm::SolidFacts& facts : lbm::kSolidOperators)
+    if (solid_operator == facts.word) run.solid_operator = facts.solid_operator;
   for (const auto w : {lbm::SolidWeighting::fraction, lbm::SolidWeighting::noble_torczynski})
     if (weighting == lbm::name_of(w)) run.weighting = w;
   if (fraction == "linear") run.fraction = FractionMethod::linear;
   if (fraction == "subcells") run.fraction = FractionMethod::subcells;
   if (!law.empty()) {
     const std::vector<double> terms = listed(law, read_number);
-    run.law = CoefficientLaw{terms.at(0), terms.at(1), terms.at(2), terms.at(3)};
+    run.law = CoefficientLaw{{terms.at(0), terms.at(1), terms.at(2), terms.at(3)}};
   }
-  for (const auto c : {lbm::CollisionOperator::bgk, lbm::CollisionOperator::trt_comoving})
-    if (collision == lbm::name_of(c)) run.collision = c;
+  for (const lbm::CollisionFacts& facts : lbm::kCollisionOperators)
+    if (collision == facts.word) run.collision = facts.collision_operator;
   if (header && speed > 0)
     std::printf(
         "packing,diameter_cells,relaxation_time,operator,weighting,collision,fraction,coefficient,speed,"

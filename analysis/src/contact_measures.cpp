@@ -36,7 +36,7 @@ std::vector<double> sorted_diameters(const Packing& packing) {
 }
 
 void add(Record& record, std::initializer_list<Entry> entries) {
-  record.insert(record.end(), entries);
+  for (const Entry& entry : entries) record.push_back(entry);
 }
 
 std::optional<double> only_if(bool defined, double value) {

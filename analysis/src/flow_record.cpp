@@ -136,10 +136,9 @@ FlowRecord flow_record(const NumberTable& table, const std::string& who, std::op
   if (!(record.height > 0))
     throw_user_error({who, fmt::format("{}, height of the bed", table.path()),
                       fmt::format("{:g}", record.height), "be > 0", ""});
-  // The monitor's bed holds 99 % of the solids (docs/reference/lbm.md).
   if (const auto* layers_height = table.find("layers_height_m"); layers_height && layers_height->front() > 0)
-    record.solids_over_layers =
-        (1 - record.porosity) * table.column("bed_height_m").front() / 0.99 / layers_height->front();
+    record.solids_over_layers = (1 - record.porosity) * table.column("bed_height_m").front() /
+                                micromechanics::kBedShare / layers_height->front();
   if (const auto* floor = table.find("layers_floor_m")) record.layers_on_floor = !(floor->front() > 0);
   return record;
 }

@@ -11,8 +11,11 @@
 #include "suffuse/analysis/number_parser.h"
 #include "suffuse/analysis/packing_builder.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/grain_series_names.h"
 
 namespace suffuse::analysis {
+
+namespace names = grain_series;
 
 using micromechanics::Contact;
 using micromechanics::Grain;
@@ -52,9 +55,11 @@ Hdf5Series::Hdf5Series(std::string path, ReadSettings settings)
     H5Lget_name_by_idx(file_->id, ".", H5_INDEX_NAME, H5_ITER_INC, n, name, sizeof name, H5P_DEFAULT);
     const std::string_view text(name);
     std::int64_t step = 0;
-    if (!text.starts_with("step_") || !parse_integer(text.substr(5), step)) continue;
+    if (!text.starts_with(names::kStep) ||
+        !parse_integer(text.substr(std::string_view(names::kStep).size()), step))
+      continue;
     const std::string group = fmt::format("/{}", text);
-    if (file_->has(group + "/grains") && file_->has(group + "/contacts"))
+    if (file_->has(group + "/" + names::kGrains) && file_->has(group + "/" + names::kContacts))
       steps.emplace_back(step, group);
     else
       ++left_out_;
@@ -120,11 +125,12 @@ std::vector<double> Hdf5Series::numbers(const std::string& dataset, std::size_t 
 bool Hdf5Series::next(Snapshot& snapshot) {
   if (next_ == groups_.size()) return false;
   group_ = groups_[next_++];
-  parse_integer(std::string_view(group_).substr(6), snapshot.step);
+  parse_integer(std::string_view(group_).substr(1 + std::string_view(names::kStep).size()), snapshot.step);
   snapshot.time.reset();
-  if (H5Aexists_by_name(file_->id, group_.c_str(), "time_s", H5P_DEFAULT) > 0) {
+  if (H5Aexists_by_name(file_->id, group_.c_str(), names::kTime, H5P_DEFAULT) > 0) {
     double time = 0;
-    const hid_t attribute = H5Aopen_by_name(file_->id, group_.c_str(), "time_s", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t attribute =
+        H5Aopen_by_name(file_->id, group_.c_str(), names::kTime, H5P_DEFAULT, H5P_DEFAULT);
     if (H5Aread(attribute, H5T_NATIVE_DOUBLE, &time) >= 0) snapshot.time = time;
     H5Aclose(attribute);
   }
@@ -147,8 +153,8 @@ bool Hdf5Series::next(Snapshot& snapshot) {
 }
 
 std::array<bool, 3> Hdf5Series::read_box(Packing& packing) const {
-  if (file_->has(group_ + "/box")) {
-    const std::vector<double> box = numbers("box", 3);
+  if (file_->has(group_ + "/" + names::kBox)) {
+    const std::vector<double> box = numbers(names::kBox, 3);
     if (box.size() != 6) complain("box has not two corners", "write the low and the high one");
     packing.box_low = Vec3(box[0], box[1], box[2]);
     packing.box_high = Vec3(box[3], box[4], box[5]);
@@ -159,8 +165,8 @@ std::array<bool, 3> Hdf5Series::read_box(Packing& packing) const {
   } else {
     complain("has no box", "give the volume of the sample: --volume M3, --bed or --region");
   }
-  if (!file_->has(group_ + "/periodic")) return {};
-  const std::vector<double> periodic = numbers("periodic", 1);
+  if (!file_->has(group_ + "/" + names::kPeriodic)) return {};
+  const std::vector<double> periodic = numbers(names::kPeriodic, 1);
   if (periodic.size() != 3) complain("periodic has not three values", "write 0 or 1 for x, y, z");
   return {periodic[0] != 0, periodic[1] != 0, periodic[2] != 0};
 }
@@ -171,8 +177,9 @@ std::int64_t Hdf5Series::identifier_of(double value) const {
 }
 
 void Hdf5Series::read_grains(Packing& packing) const {
-  const std::vector<double> id = numbers("grains/id", 1), radius = numbers("grains/radius", 1),
-                            position = numbers("grains/position", 3);
+  const std::vector<double> id = numbers(names::in(names::kGrains, names::kId), 1),
+                            radius = numbers(names::in(names::kGrains, names::kRadius), 1),
+                            position = numbers(names::in(names::kGrains, names::kPosition), 3);
   if (radius.size() != id.size() || position.size() != 3 * id.size())
     complain("the arrays of the grains have different lengths", "is the file whole?");
   for (std::size_t i = 0; i < id.size(); ++i)
@@ -181,12 +188,17 @@ void Hdf5Series::read_grains(Packing& packing) const {
 }
 
 void Hdf5Series::read_contacts(Packing& packing, const Vec3& period) const {
-  const std::vector<double> ids = numbers("contacts/ids", 2), force = numbers("contacts/force", 3);
+  const std::vector<double> ids = numbers(names::in(names::kContacts, names::kIds), 2),
+                            force = numbers(names::in(names::kContacts, names::kForce), 3);
   std::vector<double> branch, friction, limit, spring;
-  if (file_->has(group_ + "/contacts/branch")) branch = numbers("contacts/branch", 3);
-  if (file_->has(group_ + "/contacts/friction")) friction = numbers("contacts/friction", 1);
-  if (file_->has(group_ + "/contacts/friction_limit")) limit = numbers("contacts/friction_limit", 1);
-  if (file_->has(group_ + "/contacts/spring_force")) spring = numbers("contacts/spring_force", 1);
+  if (file_->has(group_ + "/" + names::in(names::kContacts, names::kBranch)))
+    branch = numbers(names::in(names::kContacts, names::kBranch), 3);
+  if (file_->has(group_ + "/" + names::in(names::kContacts, names::kFriction)))
+    friction = numbers(names::in(names::kContacts, names::kFriction), 1);
+  if (file_->has(group_ + "/" + names::in(names::kContacts, names::kFrictionLimit)))
+    limit = numbers(names::in(names::kContacts, names::kFrictionLimit), 1);
+  if (file_->has(group_ + "/" + names::in(names::kContacts, names::kSpringForce)))
+    spring = numbers(names::in(names::kContacts, names::kSpringForce), 1);
   const std::size_t count = ids.size() / 2;
   if (force.size() != 3 * count || (!branch.empty() && branch.size() != 3 * count) ||
       (!friction.empty() && friction.size() != count) || (!limit.empty() && limit.size() != count) ||

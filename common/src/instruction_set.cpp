@@ -1,4 +1,4 @@
-#include "suffuse/common/instruction_set.h"
+#include "suffuse/simd/instruction_set.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -90,7 +90,7 @@ void LbmRun::check(long step) {
   refuse_grains_behind_walls(simulation_);
   const GuardReading now = reading(extremes_);
   fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
-  near_limit_ = resolved && extremes_.largest_speed * std::sqrt(3.) > kWarnShare * settings_.largest_mach;
+  near_limit_ = resolved && lbm::mach_of(extremes_) > kWarnShare * settings_.largest_mach;
   const std::vector<std::string> warnings = guards_.look(now);
   for (const std::string& line : warnings) say(line);
   if (warnings.empty()) return;

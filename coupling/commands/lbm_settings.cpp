@@ -198,16 +198,11 @@ void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& set
 
 void read_collision(ArgumentReader& reader, LbmSettings& settings) {
   lbm::CollisionSettings collision = settings.coupled.fluid.collision;
-  collision.collision_operator =
-      choose<lbm::CollisionOperator>(reader, "operator",
-                                     {{"bgk", lbm::CollisionOperator::bgk},
-                                      {"trt", lbm::CollisionOperator::trt},
-                                      {"trt_comoving", lbm::CollisionOperator::trt_comoving},
-                                      {"central_moments", lbm::CollisionOperator::central_moments}});
+  collision.collision_operator = choose(reader, "operator", lbm::collision_words());
   while (!reader.done()) {
     if (reader.keyword("magic")) {
       if (!lbm::has_magic(collision.collision_operator))
-        throw_user_error({reader.who(), "magic", "given", "go with trt or trt_comoving",
+        throw_user_error({reader.who(), "magic", "given", "go with " + lbm::words_with_magic(),
                           "drop it, or write `lbm collision trt magic ...`"});
       collision.magic = reader.positive("magic");
     } else if (reader.keyword("incompressible"))
@@ -224,11 +219,7 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
   bool coefficient_given = false;
   while (!reader.done()) {
     if (reader.keyword("operator")) {
-      solids.cells.solid_operator = choose<lbm::SolidOperator>(reader, "operator",
-                                                               {{"sc1", lbm::SolidOperator::sc1},
-                                                                {"sc2", lbm::SolidOperator::sc2},
-                                                                {"sc3", lbm::SolidOperator::sc3},
-                                                                {"force", lbm::SolidOperator::force}});
+      solids.cells.solid_operator = choose(reader, "operator", lbm::solid_words());
     } else if (reader.keyword("weighting")) {
       solids.cells.weighting = choose<lbm::SolidWeighting>(
           reader, "weighting",
@@ -372,10 +363,12 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
   }
   for (const OutputRequest& other : settings.outputs)
     refuse_repeated(reader, "output " + output.id, other.id == output.id);
-  static const std::map<std::string, lbm::Field> fields{{"velocity", lbm::Field::velocity},
-                                                        {"pressure", lbm::Field::pressure},
-                                                        {"density", lbm::Field::density},
-                                                        {"solid_fraction", lbm::Field::solid_fraction}};
+  std::map<std::string, lbm::Field> fields;
+  std::string known = "every, file, ";
+  for (const lbm::FieldFacts& facts : lbm::kFields) {
+    fields[facts.word] = facts.field;
+    known += facts.word + std::string(", ");
+  }
   while (!reader.done()) {
     if (reader.keyword("every")) {
       output.every = reader.positive("every");
@@ -395,7 +388,7 @@ void read_output(ArgumentReader& reader, LbmSettings& settings) {
             std::find(output.fields.begin(), output.fields.end(), field->second) != output.fields.end());
         output.fields.push_back(field->second);
       } else
-        reader.unknown(word, "every, file, velocity, pressure, density, solid_fraction, grains, contacts");
+        reader.unknown(word, known + "grains, contacts");
     }
   }
   if (output.every <= 0 || output.file.empty())

@@ -87,21 +87,16 @@ std::string bed_text(const CoupledSimulation& simulation, const LiggghtsPort::Su
       grains.extent[axis], 1 - grains.packing, time);
 }
 
-/// Below this relaxation time central moments give energy to water that grains stir (hard case
-/// low_viscosity).
-constexpr double kLeastForCentralMoments = 0.503;
-
 std::string collision_note(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains) {
-  const lbm::CollisionSettings& collision = simulation.fluid().settings().collision;
+  const lbm::CollisionFacts& facts =
+      lbm::facts_of(simulation.fluid().settings().collision.collision_operator);
   const double tau = simulation.units().relaxation_time();
-  if (grains.grains == 0 || collision.collision_operator != lbm::CollisionOperator::central_moments ||
-      tau >= kLeastForCentralMoments)
-    return "";
+  if (grains.grains == 0 || tau >= facts.least_stirred_relaxation_time) return "";
   return fmt::format(
-      "central_moments gains energy where grains stir the water at a relaxation time below {:g}, here "
+      "{} gains energy where grains stir the water at a relaxation time below {:g}, here "
       "{:.4g}; "
       "take `lbm collision trt` with `lbm effect turbulence on`",
-      kLeastForCentralMoments, tau);
+      facts.word, facts.least_stirred_relaxation_time, tau);
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 #include "modify.h"
 #include "monitor.h"
 #include "suffuse/common/error.h"
+#include "suffuse/lbm/health.h"
+#include "suffuse/micromechanics/fluidisation.h"
 #include "variable.h"
 
 namespace suffuse::coupling {
@@ -129,18 +131,15 @@ double centre_of_solids(const PlaneSums& planes) {
   return all > 0 ? moment / all : 0;
 }
 
-/// Beyond this height there are only the odd grains of the surface.
-constexpr double kBedShare = 0.99;
-
 Quantity bed_quantity(int axis) {
   return {{"bed_height_m", "bed_porosity", "centre_of_grains_" + axis_name(axis) + "_m"},
           [](Sample& sample, std::vector<double>& row) {
             const PlaneSums& planes = sample.planes();
-            const double height = solid_height(planes, kBedShare);
+            const double height = solid_height(planes, micromechanics::kBedShare);
             double solid = 0;
             for (std::size_t i = 0; i < planes.planes(); ++i) solid += planes.spacing * planes.solid_share(i);
             row.push_back(height);
-            row.push_back(height > 0 ? 1 - kBedShare * solid / planes.room_below(height) : 1);
+            row.push_back(height > 0 ? 1 - micromechanics::kBedShare * solid / planes.room_below(height) : 1);
             row.push_back(centre_of_solids(planes));
           }};
 }
@@ -360,7 +359,7 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
     return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
             [](Sample& sample, std::vector<double>& row) {
               const lbm::FluidExtremes& e = sample.planes().extremes;
-              row.insert(row.end(), {e.largest_speed * std::sqrt(3.), e.smallest_density, e.largest_density});
+              row.insert(row.end(), {lbm::mach_of(e), e.smallest_density, e.largest_density});
             }};
   return reference_quantity(request, now.lmp);
 }

@@ -50,7 +50,7 @@ std::vector<RunGuards::Finding> RunGuards::findings(const GuardReading& reading)
   const lbm::Units& units = simulation_.units();
   const double step = units.time_step();
   std::vector<Finding> all;
-  const double mach = reading.fluid.largest_speed * std::sqrt(3.);
+  const double mach = lbm::mach_of(reading.fluid);
   all.push_back({kMach, mach, reading.mach_limit, fmt::format("{:.3g}", mach), "", ""});  // health.h ends it
   const double departure = std::max(reading.fluid.largest_density - 1, 1 - reading.fluid.smallest_density);
   all.push_back({kDensity, departure, limits_.density, fmt::format("{:.3g} % from rest", 100 * departure),

@@ -100,7 +100,8 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
     sums.volume += volume;
     const double speed_squared = Eigen::Map<const Vec3>(atom->v[i]).squaredNorm();
     sums.energy += 0.5 * atom->rmass[i] *
-                   (speed_squared + 0.4 * r * r * Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
+                   (speed_squared + micromechanics::sphere_inertia(1, r) *
+                                        Eigen::Map<const Vec3>(atom->omega[i]).squaredNorm());
     extremes.speed_squared = std::max(extremes.speed_squared, speed_squared);
     extremes.minus_radius = std::max(extremes.minus_radius, -r);
     extremes.radius = std::max(extremes.radius, r);
@@ -162,8 +163,7 @@ std::vector<double> LiggghtsPort::mass_by_size(const std::vector<double>& bounds
     if ((atom->mask[i] & fix_->groupbit) == 0 || !(atom->x[i][axis] < below)) continue;
     const double radius = atom->radius[i];
     const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * radius);
-    masses[static_cast<std::size_t>(above - bounds.begin())] +=
-        atom->density[i] * 4. / 3 * std::numbers::pi * radius * radius * radius;
+    masses[static_cast<std::size_t>(above - bounds.begin())] += atom->density[i] * sphere_volume(radius);
   }
   MPI_Allreduce(MPI_IN_PLACE, masses.data(), static_cast<int>(masses.size()), MPI_DOUBLE, MPI_SUM,
                 lmp_->world);

@@ -6,6 +6,7 @@
 
 #include "pore_kernels.h"
 #include "suffuse/common/error.h"
+#include "suffuse/simd/dispatch.h"
 
 namespace suffuse::coupling {
 
@@ -41,15 +42,13 @@ double CoefficientLaw::operator()(double diameter, double surface_per_pore) cons
 }
 
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {
-  switch (solid_operator) {
-    case lbm::SolidOperator::force:
-      return {1.76, 1.79, 13.9, 53.4};
-    case lbm::SolidOperator::sc3:
-      return {0.64, 2.25, 7.6, 30.1};
-    default:
-      throw_user_error({"lbm solid", "coefficient", "auto", "go with operator force or sc3",
-                        "give a number, or change the operator"});
-  }
+  const lbm::CoefficientTerms& terms = lbm::facts_of(solid_operator).coefficient;
+  if (terms.given()) return {terms};
+  std::string words;
+  for (const lbm::SolidFacts& facts : lbm::kSolidOperators)
+    if (facts.coefficient.given()) words += (words.empty() ? "" : " or ") + std::string(facts.word);
+  throw_user_error({"lbm solid", "coefficient", "auto", "go with operator " + words,
+                    "give a number, or change the operator"});
 }
 
 double expected_permeability_error(double cells_per_sauter_diameter) {
@@ -93,17 +92,8 @@ void PoreSurvey::set_values(const std::vector<float>& values) {
 }
 
 void PoreSurvey::update(const std::vector<LatticeSphere>& spheres, const CoefficientLaw& law) {
-  auto add = portable::add_smoothed;
-  auto narrow = portable::narrow_plane;
-#ifdef SUFFUSE_HAVE_X86_KERNELS
-  if (instruction_set_ == lbm::InstructionSet::avx2) {
-    add = avx2::add_smoothed;
-    narrow = avx2::narrow_plane;
-  } else if (instruction_set_ == lbm::InstructionSet::avx512) {
-    add = avx512::add_smoothed;
-    narrow = avx512::narrow_plane;
-  }
-#endif
+  const auto add = SUFFUSE_CHOOSE(instruction_set_, decltype(&portable::add_smoothed), add_smoothed);
+  const auto narrow = SUFFUSE_CHOOSE(instruction_set_, decltype(&portable::narrow_plane), narrow_plane);
   surface_.assign(values_held(), 0);
   solid_.assign(values_held(), 0);
   PoreCells cells{};

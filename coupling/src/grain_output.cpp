@@ -7,10 +7,13 @@
 #include <vector>
 
 #include "suffuse/common/collective_text.h"
+#include "suffuse/common/grain_series_names.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/provenance.h"
 
 namespace suffuse::coupling {
+
+namespace names = grain_series;
 
 namespace {
 
@@ -75,17 +78,17 @@ class RowWriter {
 void write_grains(Hdf5File& file, const std::string& step, const GrainArrays& grains,
                   const GrainMemory& memory, MPI_Comm communicator) {
   const Rows rows = rows_of(static_cast<std::size_t>(grains.owned), communicator);
-  file.create_group(step + "/grains");
-  RowWriter writer(file, step + "/grains", rows);
-  writer.scalars("id", "", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
+  file.create_group(step + "/" + names::kGrains);
+  RowWriter writer(file, step + "/" + names::kGrains, rows);
+  writer.scalars(names::kId, "", std::vector<std::int64_t>(grains.id, grains.id + grains.owned));
   std::vector<double> radius(grains.radius, grains.radius + grains.owned);
-  writer.scalars("radius", "m", radius);
+  writer.scalars(names::kRadius, "m", radius);
   for (double& r : radius) r *= 2;
   writer.scalars("diameter", "m", radius);
-  writer.vectors("position", "m", grains.position, 3);
+  writer.vectors(names::kPosition, "m", grains.position, 3);
   writer.vectors("velocity", "m/s", grains.velocity, 3);
   writer.vectors("angular_velocity", "rad/s", grains.angular_velocity, 3);
-  writer.vectors("force", "N", memory.load, 6);
+  writer.vectors(names::kForce, "N", memory.load, 6);
   writer.vectors("torque", "N m", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
 }
 
@@ -99,10 +102,10 @@ void write_box(Hdf5File& file, const std::string& step, const GrainSnapshot& sna
     corners.insert(corners.end(), snapshot.box_high.begin(), snapshot.box_high.end());
     periodic.assign(snapshot.periodic.begin(), snapshot.periodic.end());
   }
-  file.create_array<double>(step + "/box", {2, 3});
-  file.write(step + "/box", {{2, 3}, {0, 0}, {2 * mine, 3}}, corners);
-  file.create_array<std::uint8_t>(step + "/periodic", {3});
-  file.write(step + "/periodic", {{3}, {0}, {3 * mine}}, periodic);
+  file.create_array<double>(step + "/" + names::kBox, {2, 3});
+  file.write(step + "/" + names::kBox, {{2, 3}, {0, 0}, {2 * mine, 3}}, corners);
+  file.create_array<std::uint8_t>(step + "/" + names::kPeriodic, {3});
+  file.write(step + "/" + names::kPeriodic, {{3}, {0}, {3 * mine}}, periodic);
 }
 
 void write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
@@ -123,20 +126,20 @@ void write_contacts(Hdf5File& file, const std::string& step, const micromechanic
     limit.push_back(contact.friction_limit);
     spring.push_back(contact.spring_force);
   }
-  file.create_group(step + "/contacts");
+  file.create_group(step + "/" + names::kContacts);
   const Rows rows = rows_of(friction.size(), communicator);
   std::vector<std::int64_t> lines(2 * rows.mine);
   std::iota(lines.begin(), lines.end(), static_cast<std::int64_t>(2 * rows.first));
-  RowWriter writer(file, step + "/contacts", rows);
-  writer.table("ids", "", 2, ids);
-  writer.table("force", "N", 3, force);
+  RowWriter writer(file, step + "/" + names::kContacts, rows);
+  writer.table(names::kIds, "", 2, ids);
+  writer.table(names::kForce, "N", 3, force);
   writer.scalars("normal_force", "N", normal);
-  writer.table("branch", "m", 3, branch);
+  writer.table(names::kBranch, "m", 3, branch);
   writer.table("ends", "m", 6, ends);
   writer.table("lines", "", 2, lines);
-  writer.scalars("friction", "1", friction);
-  writer.scalars("friction_limit", "N", limit);
-  writer.scalars("spring_force", "N", spring);
+  writer.scalars(names::kFriction, "1", friction);
+  writer.scalars(names::kFrictionLimit, "N", limit);
+  writer.scalars(names::kSpringForce, "N", spring);
 }
 
 /// Bytes of the arrays, of all ranks.
@@ -162,12 +165,12 @@ std::string xdmf_snapshot(const std::string& file, const std::string& group, dou
       "      <Grid Name=\"grains\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n"
       "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n"
       "        <Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"{} 3\" NumberType=\"Float\" "
-      "Precision=\"8\" Format=\"HDF\">{}:{}/position</DataItem></Geometry>\n",
-      time, rows, rows, file, group);
-  text += xdmf_attribute(file, group, "id", rows, false, true);
-  for (const char* scalar : {"radius", "diameter"})
+      "Precision=\"8\" Format=\"HDF\">{}:{}/{}</DataItem></Geometry>\n",
+      time, rows, rows, file, group, names::kPosition);
+  text += xdmf_attribute(file, group, names::kId, rows, false, true);
+  for (const char* scalar : {names::kRadius, "diameter"})
     text += xdmf_attribute(file, group, scalar, rows, false, false);
-  for (const char* vector : {"velocity", "angular_velocity", "force", "torque"})
+  for (const char* vector : {"velocity", "angular_velocity", names::kForce, "torque"})
     text += xdmf_attribute(file, group, vector, rows, true, false);
   return text + "      </Grid>\n";
 }
@@ -182,9 +185,9 @@ std::string xdmf_contacts(const std::string& file, const std::string& group, dou
       "NumberType=\"Float\" "
       "Precision=\"8\" Format=\"HDF\">{3}:{4}/ends</DataItem></Geometry>\n",
       time, rows, 2 * rows, file, group);
-  for (const char* scalar : {"normal_force", "friction"})
+  for (const char* scalar : {"normal_force", names::kFriction})
     text += xdmf_attribute(file, group, scalar, rows, false, false, "Cell");
-  text += xdmf_attribute(file, group, "force", rows, true, false, "Cell");
+  text += xdmf_attribute(file, group, names::kForce, rows, true, false, "Cell");
   return text + "      </Grid>\n";
 }
 
@@ -209,7 +212,7 @@ std::string contacts_beside(const std::string& path) {
 }
 
 void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
-  const std::string name = fmt::format("step_{:012d}", snapshot.step), step = "/" + name;
+  const std::string name = fmt::format("{}{:012d}", names::kStep, snapshot.step), step = "/" + name;
   const std::string file_name = std::filesystem::path(path_).filename().string();
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
@@ -220,23 +223,23 @@ void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
     append_ = true;
     file.reserve(room_for(snapshot, communicator));
     for (const std::string& old : file.names_in("/"))
-      if (old.starts_with("step_") && old >= name) file.remove("/" + old);
+      if (old.starts_with(names::kStep) && old >= name) file.remove("/" + old);
     write_provenance(file);
     file.create_group(step);
-    file.set_attribute(step, "time_s", snapshot.time);
+    file.set_attribute(step, names::kTime, snapshot.time);
     write_grains(file, step, snapshot.grains, snapshot.memory, communicator);
     write_box(file, step, snapshot, rank);
     if (snapshot.network != nullptr) write_contacts(file, step, *snapshot.network, communicator);
     for (const std::string& each : file.names_in("/")) {
-      if (!each.starts_with("step_")) continue;
-      const std::string part = "/" + each + "/grains";
-      if (const std::size_t count = file.extents(part + "/id").at(0); count > 0)
-        snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, "time_s"), count);
-      const std::string network = "/" + each + "/contacts";
+      if (!each.starts_with(names::kStep)) continue;
+      const std::string part = "/" + each + "/" + names::kGrains;
+      if (const std::size_t count = file.extents(part + "/" + names::kId).at(0); count > 0)
+        snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, names::kTime), count);
+      const std::string network = "/" + each + "/" + names::kContacts;
       if (!file.exists(network + "/lines")) continue;
       if (const std::size_t count = file.extents(network + "/lines").at(0); count > 0)
         contact_snapshots +=
-            xdmf_contacts(file_name, network, file.number_attribute("/" + each, "time_s"), count);
+            xdmf_contacts(file_name, network, file.number_attribute("/" + each, names::kTime), count);
     }
     file.close();
   }

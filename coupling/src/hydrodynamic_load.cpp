@@ -1,12 +1,6 @@
 #include "suffuse/coupling/hydrodynamic_load.h"
 
-#include <numbers>
-
 namespace suffuse::coupling {
-
-double sphere_volume(double radius) {
-  return 4. / 3 * std::numbers::pi * radius * radius * radius;
-}
 
 Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
                   const LoadRule& rule) {
@@ -16,7 +10,8 @@ Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now,
   load.force +=
       (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_step;
   if (now.radius < rule.spacing) return load;
-  const double moment = mass * (0.4 * now.radius * now.radius + rule.spacing * rule.spacing / 6);
+  const double moment =
+      mass * (micromechanics::sphere_inertia(1, now.radius) + rule.spacing * rule.spacing / 6);
   load.torque += (moment * (now.angular_velocity - before.angular_velocity) + lead.spin - before.lead.spin) /
                  rule.time_step;
   return load;

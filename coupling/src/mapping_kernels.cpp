@@ -1,5 +1,5 @@
 // Compiled once for each instruction set (see CMakeLists.txt), so that the program carries them all and
-// chooses at start. For the reason given in lbm_solver's pack.h no function of a standard library template is
+// chooses at start. For the reason given in suffuse/simd/pack.h no function of a standard library template is
 // called here that the linker could share with other files.
 #include "mapping_kernels.h"
 

@@ -3,14 +3,14 @@
 #include <cstddef>
 
 #include "suffuse/coupling/mapped_sphere.h"
+#include "suffuse/simd/declare.h"
 
 namespace suffuse::coupling {
 
 /// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
 inline constexpr float kLeastLinearRadius = 1;
 
-/// A cell's coefficient is cut here where spheres and pores bring their own.
-inline constexpr float kLargestCellCoefficient = 60;
+inline constexpr float kLargestCellCoefficient = static_cast<float>(kLargestCoefficient);
 
 /// How fractions are written.
 struct FractionRule {
@@ -65,9 +65,7 @@ struct SliceNotes {
   void sum_loads(const SliceList& list, const CellArrays& arrays, const HeldRule& held,        \
                  const SliceNotes& notes, LatticeLoad* loads);                                 \
   }
-SUFFUSE_DECLARE_MAPPING(portable)
-SUFFUSE_DECLARE_MAPPING(avx2)
-SUFFUSE_DECLARE_MAPPING(avx512)
+SUFFUSE_FOR_EACH_INSTRUCTION_SET(SUFFUSE_DECLARE_MAPPING)
 #undef SUFFUSE_DECLARE_MAPPING
 
 }  // namespace suffuse::coupling

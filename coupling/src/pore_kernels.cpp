@@ -1,9 +1,11 @@
 // Compiled once for each instruction set, as mapping_kernels.cpp.
 #include "pore_kernels.h"
 
-#include "sphere_fraction.h"
+#include "suffuse/simd/eight_floats.h"
 
 namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
+
+using namespace simd::SUFFUSE_KERNEL_NAMESPACE;
 
 namespace {
 

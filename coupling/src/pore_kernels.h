@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "suffuse/simd/declare.h"
+
 namespace suffuse::coupling {
 
 /// Cells of a rank as plain data (see mapping_kernels.h for why), with the layout of the fractions.
@@ -26,9 +28,7 @@ struct PoreTerms {
   void add_smoothed(const double* position, double radius, const PoreCells& cells); \
   void narrow_plane(const PoreCells& cells, const PoreTerms& terms, int z);         \
   }
-SUFFUSE_DECLARE_PORES(portable)
-SUFFUSE_DECLARE_PORES(avx2)
-SUFFUSE_DECLARE_PORES(avx512)
+SUFFUSE_FOR_EACH_INSTRUCTION_SET(SUFFUSE_DECLARE_PORES)
 #undef SUFFUSE_DECLARE_PORES
 
 }  // namespace suffuse::coupling

@@ -6,12 +6,11 @@
 #include <numeric>
 
 #include "mapping_kernels.h"
+#include "suffuse/simd/dispatch.h"
 
 namespace suffuse::coupling {
 
 namespace {
-
-static_assert(double{kLargestCellCoefficient} == kLargestCoefficient);
 
 /// Beyond radius + this a cell's centre is too far for the sphere to cover any of the cell.
 double reach_beyond_radius(FractionMethod method, double radius) {
@@ -45,26 +44,6 @@ CellArrays plain(const lbm::PartialSolidArrays& arrays, const lbm::CellBox& box,
     if (const auto* in_float = std::get_if<1>(&exchange)) plain.exchange_float[a] = (*in_float)[a];
   }
   return plain;
-}
-
-/// The kernels of one instruction set.
-struct Kernels {
-  decltype(&portable::map_slices) map_slices;
-  decltype(&portable::strengths_of) strengths_of;
-  decltype(&portable::sum_loads) sum_loads;
-};
-
-Kernels kernels_of(lbm::InstructionSet set) {
-  switch (set) {
-#ifdef SUFFUSE_HAVE_X86_KERNELS
-    case lbm::InstructionSet::avx512:
-      return {avx512::map_slices, avx512::strengths_of, avx512::sum_loads};
-    case lbm::InstructionSet::avx2:
-      return {avx2::map_slices, avx2::strengths_of, avx2::sum_loads};
-#endif
-    default:
-      return {portable::map_slices, portable::strengths_of, portable::sum_loads};
-  }
 }
 
 }  // namespace
@@ -258,8 +237,8 @@ void SolidMapping::write_rows(const lbm::RowBlock& block) {
   clear_rows(block);
   if (!first_slice_.empty()) {
     const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-    kernels_of(instruction_set_)
-        .map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), notes());
+    const auto map_slices = SUFFUSE_CHOOSE(instruction_set_, decltype(&portable::map_slices), map_slices);
+    map_slices(slices_in(block), rule, plain(arrays_, box_, {}, pore_coefficients_), notes());
     noted_block_ = static_cast<std::ptrdiff_t>(number_of(block));
   }
   cover_closed(block);
@@ -308,16 +287,17 @@ void SolidMapping::sum_rows(const lbm::RowBlock& block, const lbm::ExchangeArray
   const SliceList list = slices_in(block);
   if (list.count == 0) return;
   const CellArrays arrays = plain(arrays_, box_, exchange, pore_coefficients_);
-  const Kernels kernels = kernels_of(instruction_set_);
+  const auto strengths_of = SUFFUSE_CHOOSE(instruction_set_, decltype(&portable::strengths_of), strengths_of);
+  const auto sum_loads = SUFFUSE_CHOOSE(instruction_set_, decltype(&portable::sum_loads), sum_loads);
   const auto number = static_cast<std::ptrdiff_t>(number_of(block));
   if (noted_block_ != number) {
     const FractionRule rule{settings_.fraction, settings_.subcells, settings_.cells.own_coefficients};
-    kernels.strengths_of(list, rule, arrays, notes());
+    strengths_of(list, rule, arrays, notes());
     noted_block_ = number;
   }
   const HeldRule held{static_cast<float>(held_.base), static_cast<float>(held_.slope),
                       static_cast<float>(held_.least)};
-  kernels.sum_loads(list, arrays, held, notes(), loads_.data());
+  sum_loads(list, arrays, held, notes(), loads_.data());
 }
 
 void SolidMapping::begin_loads(double relaxation_time) {

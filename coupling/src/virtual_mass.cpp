@@ -41,7 +41,8 @@ double rotational_response_coefficient(double radius, double viscosity) {
 }
 
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass) {
-  const double displaced = rule.fluid_density * sphere_volume(radius), arm = 0.4 * radius * radius;
+  const double displaced = rule.fluid_density * sphere_volume(radius),
+               arm = micromechanics::sphere_inertia(1, radius);
   if (rule.coefficient) return {*rule.coefficient * displaced, *rule.coefficient * displaced * arm};
   const double a = radius / rule.spacing, viscosity = lbm::viscosity_of(rule.relaxation_time);
   // A light grain is slower to follow than its cells, whose answers of several steps add up.

@@ -21,17 +21,21 @@ void check(const CollisionSettings& settings) {
 }
 
 std::string name_of(CollisionOperator collision_operator) {
-  switch (collision_operator) {
-    case CollisionOperator::bgk:
-      return "bgk";
-    case CollisionOperator::trt:
-      return "trt";
-    case CollisionOperator::trt_comoving:
-      return "trt_comoving";
-    case CollisionOperator::central_moments:
-      return "central_moments";
-  }
-  return "unknown";
+  return facts_of(collision_operator).word;
+}
+
+std::vector<std::pair<std::string, CollisionOperator>> collision_words() {
+  std::vector<std::pair<std::string, CollisionOperator>> words;
+  for (const CollisionFacts& facts : kCollisionOperators)
+    words.emplace_back(facts.word, facts.collision_operator);
+  return words;
+}
+
+std::string words_with_magic() {
+  std::string words;
+  for (const CollisionFacts& facts : kCollisionOperators)
+    if (facts.odd_rate == OddRate::magic) words += (words.empty() ? "" : " or ") + std::string(facts.word);
+  return words;
 }
 
 }  // namespace suffuse::lbm

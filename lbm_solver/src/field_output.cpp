@@ -19,34 +19,6 @@ struct Snapshot {
   std::vector<std::string> fields;
 };
 
-std::string name_of(Field field) {
-  switch (field) {
-    case Field::velocity:
-      return "velocity";
-    case Field::pressure:
-      return "pressure";
-    case Field::density:
-      return "density";
-    case Field::solid_fraction:
-      return "solid_fraction";
-  }
-  return "unknown";
-}
-
-std::string unit_of(Field field) {
-  switch (field) {
-    case Field::velocity:
-      return "m/s";
-    case Field::pressure:
-      return "Pa";
-    case Field::density:
-      return "kg/m3";
-    case Field::solid_fraction:
-      break;
-  }
-  return "1";
-}
-
 ArrayPart part_of(const Decomposition& d, bool vector) {
   ArrayPart part = cells_of(d);
   if (vector) {
@@ -60,7 +32,7 @@ ArrayPart part_of(const Decomposition& d, bool vector) {
 std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units,
                              const FieldOutputSettings& settings) {
   std::vector<float> values;
-  values.reserve(fluid.decomposition().local_box().volume() * (field == Field::velocity ? 3 : 1));
+  values.reserve(fluid.decomposition().local_box().volume() * facts_of(field).components);
   const auto add = [&](double value) { values.push_back(static_cast<float>(value)); };
   const CellBox& box = fluid.decomposition().local_box();
   if (field == Field::solid_fraction) {
@@ -137,7 +109,7 @@ void FieldOutput::write(const Fluid& fluid) {
     Hdf5File file(settings_.path, mode, d.communicator(), Hdf5File::Growth::noted);
     started_ = true;
     std::size_t values = 0;
-    for (const Field field : settings_.fields) values += field == Field::velocity ? 3 : 1;
+    for (const Field field : settings_.fields) values += facts_of(field).components;
     file.reserve(values * sizeof(float) * CellBox{{0, 0, 0}, d.cells()}.volume());
     for (const std::string& name : file.names_in("/"))
       if (name.starts_with("step_") && name >= group) file.remove("/" + name);
@@ -148,10 +120,10 @@ void FieldOutput::write(const Fluid& fluid) {
     file.create_group("/" + group);
     file.set_attribute("/" + group, "time_s", units_.time_to_si(static_cast<double>(fluid.steps())));
     for (const Field field : settings_.fields) {
-      const ArrayPart part = part_of(d, field == Field::velocity);
-      const std::string array = "/" + group + "/" + name_of(field);
+      const ArrayPart part = part_of(d, facts_of(field).components > 1);
+      const std::string array = "/" + group + "/" + facts_of(field).word;
       file.create_array<float>(array, part.whole);
-      file.set_attribute(array, "units", unit_of(field));
+      file.set_attribute(array, "units", facts_of(field).unit);
       file.write(array, part, values_of(field, fluid, units_, settings_));
     }
     for (const std::string& name : file.names_in("/"))

@@ -166,14 +166,12 @@ void read_lattice(const std::string& file, const toml::table& root, FlowCase& fl
   flow.precision =
       choose<Precision>(lattice, "precision", lattice.text("precision").value_or("double"),
                         {{"double", Precision::double_precision}, {"float", Precision::float_precision}});
+  const auto collisions = collision_words();
   flow.collision.collision_operator =
       choose<CollisionOperator>(lattice, "collision", lattice.text("collision").value_or("trt"),
-                                {{"bgk", CollisionOperator::bgk},
-                                 {"trt", CollisionOperator::trt},
-                                 {"trt_comoving", CollisionOperator::trt_comoving},
-                                 {"central_moments", CollisionOperator::central_moments}});
+                                {collisions.begin(), collisions.end()});
   if (lattice.find("magic") != nullptr && !has_magic(flow.collision.collision_operator))
-    throw_user_error({lattice.who(), "magic", "given", "go with trt or trt_comoving", "drop it"});
+    throw_user_error({lattice.who(), "magic", "given", "go with " + words_with_magic(), "drop it"});
   flow.collision.magic = lattice.positive("magic").value_or(flow.collision.magic);
   flow.collision.smagorinsky = lattice.not_negative("smagorinsky").value_or(0);
   flow.collision.incompressible = lattice.truth("incompressible").value_or(false);
@@ -207,14 +205,12 @@ std::vector<Field> read_fields(const Section& output) {
   const toml::array* names = output.find("fields")->as_array();
   if (names == nullptr || names->empty())
     throw_user_error({output.who(), "fields", "(another value)", "be a list of names", ""});
+  std::map<std::string, Field> words;
+  for (const FieldFacts& facts : kFields) words[facts.word] = facts.field;
   std::vector<Field> fields;
   for (const toml::node& name : *names) {
     const std::string word = name.value<std::string>().value_or("");
-    fields.push_back(choose<Field>(output, "fields", word,
-                                   {{"velocity", Field::velocity},
-                                    {"pressure", Field::pressure},
-                                    {"density", Field::density},
-                                    {"solid_fraction", Field::solid_fraction}}));
+    fields.push_back(choose(output, "fields", word, words));
     if (std::count(fields.begin(), fields.end(), fields.back()) > 1)
       throw_user_error({output.who(), "fields", word + " twice", "name each field once", ""});
   }

@@ -12,17 +12,6 @@ namespace {
 /// Cells ahead that arrays of partly covered cells are fetched: two cache lines of floats.
 constexpr std::ptrdiff_t kSolidsAhead = 128;
 
-OperatorFamily family_of(CollisionOperator collision_operator) {
-  switch (collision_operator) {
-    case CollisionOperator::trt_comoving:
-      return OperatorFamily::comoving_rates;
-    case CollisionOperator::central_moments:
-      return OperatorFamily::central_moments;
-    default:
-      return OperatorFamily::two_rates;
-  }
-}
-
 }  // namespace
 
 FluidCoreBase::FluidCoreBase(const FluidSettings& s, const Decomposition& d)
@@ -77,7 +66,7 @@ template <class T>
 KernelCall<T> FluidCore<T>::kernel_call() {
   const CollisionSettings& c = settings.collision;
   const double half = c.relaxation_time - 0.5;
-  const bool single = c.collision_operator == CollisionOperator::bgk;
+  const bool single = facts_of(c.collision_operator).odd_rate == OddRate::one;
   KernelCall<T> call{};
   // AA pattern. Even step: each direction from the cell's own slot. Odd step: from the neighbour it comes
   // from, where the even step left it in the slot of the opposite direction.
@@ -202,8 +191,7 @@ template <class T>
 SolidKind FluidCore<T>::solid_kind() const {
   if (labels_) return SolidKind::mask;
   if (!store_) return SolidKind::none;
-  return partial_solids->solid_operator == SolidOperator::force ? SolidKind::partial_force
-                                                                : SolidKind::partial_mixed;
+  return kind_of(partial_solids->solid_operator);
 }
 
 template <class T>
@@ -218,9 +206,8 @@ PartialSolidArrays FluidCore<T>::use_partial_solids(const PartialSolidSettings& 
 template <class T>
 void FluidCore<T>::step(RowVisitor* visitor) {
   const CollisionSettings& c = settings.collision;
-  const KernelVariant variant{family_of(c.collision_operator), !force.isZero(0), c.smagorinsky > 0,
-                              solid_kind()};
-  sweep(kernel_for<T>(instruction_set, variant), visitor);
+  const KernelVariant variant{!force.isZero(0), c.smagorinsky > 0, solid_kind()};
+  sweep(kernel_for<T>(instruction_set, c.collision_operator, variant), visitor);
   const FaceContext context{force, c.incompressible};
   // Pressure faces first, so that the exchange carries what enters by them on to other ranks; walls and
   // solids last, because the exchange also copies places that they then overwrite with what really enters.

@@ -8,11 +8,11 @@
 
 namespace suffuse::lbm {
 
-namespace {
-
 double mach_of(const FluidExtremes& extremes) {
   return extremes.largest_speed * std::sqrt(3.);
 }
+
+namespace {
 
 /// Close to 0.5 the viscosity is too small for the spacing; else the time step is too long for the speed.
 /// `share` of the time step would do as far as the Mach number goes.

@@ -9,17 +9,13 @@
 namespace suffuse::lbm {
 
 std::string name_of(SolidOperator solid_operator) {
-  switch (solid_operator) {
-    case SolidOperator::sc1:
-      return "sc1";
-    case SolidOperator::sc2:
-      return "sc2";
-    case SolidOperator::sc3:
-      return "sc3";
-    case SolidOperator::force:
-      return "force";
-  }
-  return "unknown";
+  return facts_of(solid_operator).word;
+}
+
+std::vector<std::pair<std::string, SolidOperator>> solid_words() {
+  std::vector<std::pair<std::string, SolidOperator>> words;
+  for (const SolidFacts& facts : kSolidOperators) words.emplace_back(facts.word, facts.solid_operator);
+  return words;
 }
 
 std::string name_of(SolidWeighting weighting) {
@@ -59,23 +55,14 @@ double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell
   return strength * t / (1 - fraction + kLeastOpenShare * std::max(1., cell.fraction) + strength * t);
 }
 
-namespace {
-
-bool comes_twice_as_near(SolidOperator solid_operator) {
-  return solid_operator == SolidOperator::sc3 || solid_operator == SolidOperator::force;
-}
-
-}  // namespace
-
 double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& cell,
                   double relaxation_time) {
-  return (comes_twice_as_near(settings.solid_operator) ? 1 : 0.5) *
-         solid_weight(settings, cell, relaxation_time);
+  return 0.5 * facts_of(settings.solid_operator).share * solid_weight(settings, cell, relaxation_time);
 }
 
 HeldTerms held_terms(const PartialSolidSettings& settings, double relaxation_time) {
   const double t = relaxation_time - 0.5;
-  const double part = comes_twice_as_near(settings.solid_operator) ? 0.5 : 1;
+  const double part = 1 / facts_of(settings.solid_operator).share;
   switch (settings.weighting) {
     case SolidWeighting::fraction:
       return {-1, 0, part};

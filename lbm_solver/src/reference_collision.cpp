@@ -115,10 +115,10 @@ CellPopulations comoving_rates(const CellPopulations& f, const CollisionSettings
   return result;
 }
 
-CellPopulations central_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
-                                const Vec3& u, const Vec3& force) {
-  const Matrix transform = moments_about(u);
-  Vector k = transform * Eigen::Map<const Vector>(f.data());
+/// Central moments after a collision, but for those of fourth order.
+Vector relaxed_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
+                       const Vec3& u, const Vec3& force) {
+  Vector k = moments_about(u) * Eigen::Map<const Vector>(f.data());
 
   Mat3 stress;
   stress << k[4], k[7], k[8], k[7], k[5], k[9], k[8], k[9], k[6];
@@ -142,11 +142,30 @@ CellPopulations central_moments(const CellPopulations& f, const CollisionSetting
       if (kPowers[m][a] == 1) odd_axis = a;
     k[m] = 0.5 * force[odd_axis] / 3;
   }
-  for (int m = 16; m < 19; ++m) k[m] = density / 9;
+  return k;
+}
 
+CellPopulations populations_of(const Vector& moments, const Vec3& u) {
   CellPopulations result;
-  Eigen::Map<Vector>(result.data()) = transform.fullPivLu().solve(k);
+  Eigen::Map<Vector>(result.data()) = moments_about(u).fullPivLu().solve(moments);
   return result;
+}
+
+CellPopulations central_moments(const CellPopulations& f, const CollisionSettings& settings, double density,
+                                const Vec3& u, const Vec3& force) {
+  Vector k = relaxed_moments(f, settings, density, u, force);
+  for (int m = 16; m < 19; ++m) k[m] = density / 9;
+  return populations_of(k, u);
+}
+
+/// Fourth moments of a Gaussian with these second ones: fourth cumulants are zero.
+CellPopulations cumulants(const CellPopulations& f, const CollisionSettings& settings, double density,
+                          const Vec3& u, const Vec3& force) {
+  Vector k = relaxed_moments(f, settings, density, u, force);
+  k[16] = (k[4] * k[5] + 2 * k[7] * k[7]) / density;
+  k[17] = (k[4] * k[6] + 2 * k[8] * k[8]) / density;
+  k[18] = (k[5] * k[6] + 2 * k[9] * k[9]) / density;
+  return populations_of(k, u);
 }
 
 }  // namespace
@@ -166,14 +185,12 @@ CellPopulations reference_collision(const CellPopulations& populations, const Co
   density -= carried;
   const Vec3 u = momentum / density;
   switch (settings.collision_operator) {
-    case CollisionOperator::central_moments:
-      f = central_moments(f, settings, density, u, force);
-      break;
-    case CollisionOperator::trt_comoving:
-      f = comoving_rates(f, settings, density, u, force);
-      break;
-    default:
-      f = two_rates(f, settings, density, u, force);
+#define SUFFUSE_ORACLE(word, law, ...)       \
+  case CollisionOperator::word:              \
+    f = law(f, settings, density, u, force); \
+    break;
+    SUFFUSE_COLLISION_OPERATORS(SUFFUSE_ORACLE)
+#undef SUFFUSE_ORACLE
   }
   for (int i = 0; i < kDirections; ++i) f[static_cast<std::size_t>(i)] += kWeight[i] * carried;
   return f;

@@ -2,18 +2,16 @@
 
 #include "grains/contact_kernels.h"
 
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
-
 #include "grains/contact_batch.h"
+#include "suffuse/simd/four_doubles.h"
 
 namespace suffuse::grains::SUFFUSE_KERNEL_NAMESPACE {
 
+using namespace simd::SUFFUSE_KERNEL_NAMESPACE;
+
 namespace {
 
-typedef double Four __attribute__((vector_size(32)));
-typedef long FourFlags __attribute__((vector_size(32)));
+using simd::SUFFUSE_KERNEL_NAMESPACE::store;
 
 constexpr int kBlock = 512;  // candidates that are searched at a time
 
@@ -22,18 +20,6 @@ constexpr int kBlock = 512;  // candidates that are searched at a time
 }
 [[gnu::always_inline]] inline void store(Quad& to, Four value) {
   *reinterpret_cast<Four*>(&to) = value;
-}
-[[gnu::always_inline]] inline void store(double* to, Four value) {
-  *reinterpret_cast<Four*>(to) = value;
-}
-[[gnu::always_inline]] inline Four lanes(const double* from) {
-  return *reinterpret_cast<const Four*>(from);
-}
-[[gnu::always_inline]] inline void transpose(Four& a, Four& b, Four& c, Four& d) {
-  const Four p = __builtin_shufflevector(a, b, 0, 4, 2, 6), q = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Four r = __builtin_shufflevector(c, d, 0, 4, 2, 6), s = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  a = __builtin_shufflevector(p, r, 0, 1, 4, 5), b = __builtin_shufflevector(q, s, 0, 1, 4, 5);
-  c = __builtin_shufflevector(p, r, 2, 3, 6, 7), d = __builtin_shufflevector(q, s, 2, 3, 6, 7);
 }
 /// First minus second, but for the last lane, which is their sum: (branch, sum of radii), (velocity, sum of
 /// 1/m).
@@ -55,15 +41,11 @@ int touching_in(const CandidatePairs& pairs, const Quad* position, std::size_t s
     Four r = relative(position[first[k + 3]], position[second[k + 3]]);
     transpose(x, y, z, r);
     const FourFlags touch = x * x + y * y + z * z < r * r;
-#ifdef __AVX__
-    const int bits = _mm256_movemask_pd(reinterpret_cast<__m256d>(touch));
+    const int bits = bits_of(touch);
     places[found] = k, found += bits & 1;
     places[found] = k + 1, found += bits >> 1 & 1;
     places[found] = k + 2, found += bits >> 2 & 1;
     places[found] = k + 3, found += bits >> 3 & 1;
-#else
-    for (int lane = 0; lane < 4; ++lane) places[found] = k + lane, found += touch[lane] != 0;
-#endif
   }
   for (; k < count; ++k) {
     const Four d = relative(position[first[k]], position[second[k]]);

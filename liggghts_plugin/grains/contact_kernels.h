@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grains/contact_pass.h"
+#include "suffuse/simd/declare.h"
 
 namespace suffuse::grains {
 
@@ -12,9 +13,7 @@ namespace suffuse::grains {
   std::size_t contact_pass(const CandidatePairs& candidates, const GrainArrays& grains,            \
                            const PassSettings& settings, Quad* springs, const PassOutput& output); \
   }
-SUFFUSE_DECLARE_CONTACTS(portable)
-SUFFUSE_DECLARE_CONTACTS(avx2)
-SUFFUSE_DECLARE_CONTACTS(avx512)
+SUFFUSE_FOR_EACH_INSTRUCTION_SET(SUFFUSE_DECLARE_CONTACTS)
 #undef SUFFUSE_DECLARE_CONTACTS
 
 }  // namespace suffuse::grains

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "grains/contact_law.h"
-#include "suffuse/common/instruction_set.h"
+#include "suffuse/simd/instruction_set.h"
 
 namespace suffuse::grains {
 

@@ -15,6 +15,7 @@
 #include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/sphere.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -117,7 +118,8 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
     ours.force[a] = array_atom[i][a] + mass * record.acceleration[a];
     ours.torque[a] = array_atom[i][3 + a] + moment * record.angular_acceleration[a];
   }
-  const double radius = atom->radius[i], own = atom->rmass[i], own_moment = 0.4 * own * radius * radius;
+  const double radius = atom->radius[i], own = atom->rmass[i],
+               own_moment = suffuse::micromechanics::sphere_inertia(own, radius);
   ours.force_share = own / (own + mass);
   ours.torque_share = own_moment / (own_moment + moment);
   return ours;

@@ -16,6 +16,7 @@
 #include "pair_gran.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/sphere.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -225,7 +226,7 @@ void FixLubrication::count_films() {
   shares_.resize(films_.size());
   for (std::size_t i = 0; i < films_.size(); ++i) {
     const double inverse_mass = std::max(1., films_[i]) / atom->rmass[i];
-    shares_[i] = {inverse_mass, inverse_mass / (0.4 * atom->radius[i] * atom->radius[i])};
+    shares_[i] = {inverse_mass, inverse_mass / suffuse::micromechanics::sphere_inertia(1, atom->radius[i])};
   }
 }
 

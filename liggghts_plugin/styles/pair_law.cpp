@@ -17,6 +17,7 @@
 #include "pair_gran.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/sphere.h"
 
 using namespace LAMMPS_NS;
 
@@ -27,10 +28,6 @@ namespace mm = micromechanics;
 
 std::size_t index(int type) {
   return static_cast<std::size_t>(type - 1);
-}
-
-double volume(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
 }
 
 FixPropertyGlobal* property(LAMMPS* lmp, const char* name, const char* kind, int rows, int columns) {
@@ -126,7 +123,7 @@ double PairLaw::hooke_spring(int type, int partner, double mass, double radius) 
 
 double PairLaw::critical_time(int type, double radius, double density) const {
   if (!is_linear()) return mm::rayleigh_time(material(type, radius, density));
-  const double mass = density * volume(radius);
+  const double mass = density * mm::sphere_volume(radius);
   double shortest = std::numeric_limits<double>::infinity();
   for (int partner = 1; partner <= static_cast<int>(grains_have_.size()); ++partner) {
     if (grains_have_[index(partner)])
@@ -139,12 +136,12 @@ double PairLaw::critical_time(int type, double radius, double density) const {
 }
 
 double PairLaw::spring_of_like_grains(int type, double radius, double density) const {
-  return hooke_spring(type, type, density * volume(radius) / 2, radius / 2);
+  return hooke_spring(type, type, density * mm::sphere_volume(radius) / 2, radius / 2);
 }
 
 double PairLaw::oscillation_time(int type, double radius, double density, double mean_stress) const {
   if (!is_linear()) return mm::oscillation_time(material(type, radius, density), mean_stress);
-  return std::sqrt(density * volume(radius) / spring_of_like_grains(type, radius, density));
+  return std::sqrt(density * mm::sphere_volume(radius) / spring_of_like_grains(type, radius, density));
 }
 
 double PairLaw::stiffness_number(int type, double radius, double density, double mean_stress) const {
@@ -157,7 +154,7 @@ CriticalGrain critical_grain(LAMMPS* lmp, const PairLaw& law, double mean_stress
   CriticalGrain found;
   found.time = found.oscillation_time = found.stiffness_number = std::numeric_limits<double>::infinity();
   for (int i = 0; i < atom->nlocal; ++i) {
-    const double radius = atom->radius[i], density = atom->rmass[i] / volume(radius);
+    const double radius = atom->radius[i], density = atom->rmass[i] / mm::sphere_volume(radius);
     found.oscillation_time =
         std::min(found.oscillation_time, law.oscillation_time(atom->type[i], radius, density, mean_stress));
     found.stiffness_number =

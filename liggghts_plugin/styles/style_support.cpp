@@ -23,6 +23,7 @@
 #include "modify.h"
 #include "pair_gran.h"
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/sphere.h"
 #include "update.h"
 
 using LAMMPS_NS::LAMMPS;
@@ -206,7 +207,7 @@ GrainStatistics grain_statistics(LAMMPS* lmp, int groupbit) {
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     const double radius = atom->radius[i];
-    const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    const double volume = micromechanics::sphere_volume(radius);
     const double mass = atom->density[i] * volume;
     sums[0] += 1;
     sums[1] += volume;

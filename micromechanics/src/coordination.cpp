@@ -11,10 +11,6 @@ double ratio(double numerator, double denominator) {
 
 }  // namespace
 
-double sphere_volume(double radius) {
-  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-}
-
 std::vector<int> contacts_per_grain(const Packing& packing) {
   std::vector<int> contacts(packing.grains.size(), 0);
   for (const Contact& contact : packing.contacts) {

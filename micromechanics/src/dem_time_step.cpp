@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "suffuse/micromechanics/sphere.h"
+
 namespace suffuse::micromechanics {
 
 double effective_modulus(const GrainMaterial& m) {
@@ -10,7 +12,7 @@ double effective_modulus(const GrainMaterial& m) {
 }
 
 double grain_mass(const GrainMaterial& g) {
-  return g.density * std::numbers::pi / 6 * g.diameter * g.diameter * g.diameter;
+  return g.density * sphere_volume(g.diameter / 2);
 }
 
 double stiffness_number(const GrainMaterial& m, double mean_stress) {

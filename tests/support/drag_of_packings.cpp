@@ -51,7 +51,7 @@ double mean_crowding(CoupledSettings settings, const lbm::Index3& cells, double 
                      PrescribedGrains grains) {
   settings.solids.automatic_coefficient = true;
   settings.solids.cells.weighting = lbm::SolidWeighting::viscosity_independent;
-  settings.solids.law = CoefficientLaw{1, 0, 1, 0};  // k = 1 + s/6
+  settings.solids.law = CoefficientLaw{{1, 0, 1, 0}};  // k = 1 + s/6
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, cells), Vec3::Zero(),
                                grains);
   simulation.map();

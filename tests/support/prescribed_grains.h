@@ -101,7 +101,8 @@ class PrescribedGrains final : public ParticlePort {
     if (!mobile) return;
     for (std::size_t n = 0; n < list.size(); ++n) {
       Grain& g = list[n];
-      const double mass = g.density * sphere_volume(g.radius), inertia = 0.4 * mass * g.radius * g.radius;
+      const double mass = g.density * sphere_volume(g.radius),
+                   inertia = micromechanics::sphere_inertia(mass, g.radius);
       const double time = substeps * step_;
       if (free) {
         const GrainRecord& past = records_[n];

@@ -82,14 +82,13 @@ TEST_CASE("fast kernels equal the reference for every operator, option, storage 
   int compared = 0;
   for (const InstructionSet set : available_instruction_sets())
     for (const Precision precision : {Precision::double_precision, Precision::float_precision})
-      for (const CollisionOperator op : {CollisionOperator::bgk, CollisionOperator::trt,
-                                         CollisionOperator::trt_comoving, CollisionOperator::central_moments})
+      for (const CollisionFacts& facts : kCollisionOperators)
         for (int options = 0; options < 16; ++options) {
           FluidSettings settings;
           settings.instruction_set = set;
           settings.precision = precision;
           settings.faces = channel();
-          settings.collision.collision_operator = op;
+          settings.collision.collision_operator = facts.collision_operator;
           settings.collision.relaxation_time = 0.7;
           settings.collision.smagorinsky = (options & 1) != 0 ? 0.17 : 0;
           settings.collision.incompressible = (options & 2) != 0;

@@ -90,10 +90,8 @@ TEST_CASE("partly covered cells: fast kernels equal the reference for every oper
   int compared = 0;
   for (const InstructionSet set : available_instruction_sets())
     for (const Precision precision : {Precision::double_precision, Precision::float_precision})
-      for (const CollisionOperator op : {CollisionOperator::bgk, CollisionOperator::trt,
-                                         CollisionOperator::trt_comoving, CollisionOperator::central_moments})
-        for (const SolidOperator solid :
-             {SolidOperator::sc1, SolidOperator::sc2, SolidOperator::sc3, SolidOperator::force})
+      for (const CollisionFacts& collision : kCollisionOperators)
+        for (const SolidFacts& solid : kSolidOperators)
           for (const SolidWeighting weighting : {SolidWeighting::fraction, SolidWeighting::noble_torczynski,
                                                  SolidWeighting::viscosity_independent})
             for (int options = 0; options < 8; ++options) {
@@ -103,16 +101,17 @@ TEST_CASE("partly covered cells: fast kernels equal the reference for every oper
               settings.instruction_set = set;
               settings.precision = precision;
               settings.faces = by_axis(FaceKind::periodic, FaceKind::no_slip, FaceKind::free_slip);
-              settings.collision.collision_operator = op;
+              settings.collision.collision_operator = collision.collision_operator;
               settings.collision.relaxation_time = 0.7;
               settings.collision.incompressible = (options & 1) != 0;
               const Vec3 force = (options & 2) != 0 ? Vec3(1e-3, -2e-3, 5e-4) : Vec3::Zero();
-              INFO(name_of(op) << " " << name_of(solid) << " " << name_of(weighting) << " " << name_of(set)
-                               << " options " << options
-                               << (precision == Precision::float_precision ? " float" : " double"));
+              INFO(collision.word << " " << solid.word << " " << name_of(weighting) << " " << name_of(set)
+                                  << " options " << options
+                                  << (precision == Precision::float_precision ? " float" : " double"));
               // As for fluid alone (lbm_kernels_test.cpp), and velocities 20 times a population.
               const double tolerance = precision == Precision::double_precision ? 4e-15 : 1e-6;
-              CHECK(largest_difference(settings, {solid, weighting, 1.7, own}, force) < tolerance);
+              CHECK(largest_difference(settings, {solid.solid_operator, weighting, 1.7, own}, force) <
+                    tolerance);
               ++compared;
             }
   CHECK(compared >= 400);

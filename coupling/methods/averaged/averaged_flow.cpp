@@ -98,6 +98,13 @@ class AveragedFlow final : public WaterMethod {
     return side != 0 && box_face(setup_.faces, axis, side).kind != lbm::FaceKind::pressure;
   }
   void read(const GrainArrays& grains);
+  struct LargestTerms {
+    double amount, carried;
+  };
+  /// What grains bring to the faces across an axis: of an amount, and of it times their velocity along the
+  /// axis.
+  void deposit_on_faces(std::size_t axis, double PlacedGrain::*amount, const LargestTerms& largest,
+                        double carried_unit, std::vector<double>& amounts, std::vector<double>& carried);
   void deposit_volumes();
   void find_drag();
   void deposit_drag();
@@ -187,6 +194,21 @@ void AveragedFlow::read(const GrainArrays& grains) {
   MPI_Allreduce(&wet, &all_grains_, 1, MPI_LONG, MPI_SUM, setup_.communicator);
 }
 
+void AveragedFlow::deposit_on_faces(std::size_t axis, double PlacedGrain::*amount,
+                                    const LargestTerms& largest, double carried_unit,
+                                    std::vector<double>& amounts, std::vector<double>& carried) {
+  ExactSums plain(grid_.face_count(axis), largest.amount, all_grains_);
+  ExactSums moving(grid_.face_count(axis), largest.carried, all_grains_);
+  for (const PlacedGrain& g : grains_)
+    if (g.wet)
+      for_each_face_of(g, axis, grid_, [&](std::size_t face, double share) {
+        plain.add(face, share * g.*amount);
+        moving.add(face, share * g.*amount * g.velocity[static_cast<Eigen::Index>(axis)]);
+      });
+  plain.finish(setup_.communicator, 1, amounts);
+  moving.finish(setup_.communicator, carried_unit, carried);
+}
+
 void AveragedFlow::deposit_volumes() {
   double largest[3] = {0, 0, 0};
   for (const PlacedGrain& g : grains_) {
@@ -208,16 +230,8 @@ void AveragedFlow::deposit_volumes() {
   over_diameter.finish(setup_.communicator, 1 / cell_volume_, solid_over_diameter_);
   double least = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ExactSums volume(grid_.face_count(axis), largest[0], all_grains_);
-    ExactSums flux(grid_.face_count(axis), largest[2], all_grains_);
-    for (const PlacedGrain& g : grains_)
-      if (g.wet)
-        for_each_face_of(g, axis, grid_, [&](std::size_t face, double share) {
-          volume.add(face, share * g.volume);
-          flux.add(face, share * g.volume * g.velocity[static_cast<Eigen::Index>(axis)]);
-        });
-    volume.finish(setup_.communicator, 1, porosity_[axis]);
-    flux.finish(setup_.communicator, 1 / cell_volume_, solid_flux_[axis]);
+    deposit_on_faces(axis, &PlacedGrain::volume, {largest[0], largest[2]}, 1 / cell_volume_, porosity_[axis],
+                     solid_flux_[axis]);
     grid_.for_each_face(axis, [&](const Index3& at, std::size_t n) {
       porosity_[axis][n] = 1 - porosity_[axis][n] / face_volume(axis, at);
       least = std::min(least, porosity_[axis][n]);
@@ -278,16 +292,8 @@ void AveragedFlow::deposit_drag() {
   }
   MPI_Allreduce(MPI_IN_PLACE, largest, 2, MPI_DOUBLE, MPI_MAX, setup_.communicator);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    ExactSums drag(grid_.face_count(axis), largest[0], all_grains_);
-    ExactSums drag_velocity(grid_.face_count(axis), largest[1], all_grains_);
-    for (const PlacedGrain& g : grains_)
-      if (g.wet)
-        for_each_face_of(g, axis, grid_, [&](std::size_t face, double share) {
-          drag.add(face, share * g.drag);
-          drag_velocity.add(face, share * g.drag * g.velocity[static_cast<Eigen::Index>(axis)]);
-        });
-    drag.finish(setup_.communicator, 1, drag_[axis]);
-    drag_velocity.finish(setup_.communicator, 1, drag_velocity_[axis]);
+    deposit_on_faces(axis, &PlacedGrain::drag, {largest[0], largest[1]}, 1, drag_[axis],
+                     drag_velocity_[axis]);
     grid_.for_each_face(axis, [&](const Index3& at, std::size_t n) {
       drag_[axis][n] /= face_volume(axis, at);
       drag_velocity_[axis][n] /= face_volume(axis, at);

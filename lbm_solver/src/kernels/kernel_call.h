@@ -57,37 +57,46 @@ struct KernelCall {
 /// What kind of solids a kernel is compiled for.
 enum class SolidKind {
   none,
-  mask,           ///< whole cells
-  partial_force,  ///< partly covered cells by SolidOperator::force
-  partial_mixed,  ///< partly covered cells by one of the SC operators
+  mask,   ///< whole cells
+  mixed,  ///< partly covered cells by one of the operators that take a share of the collision
+#define SUFFUSE_WORD(word, ...) word,
+#define SUFFUSE_NOTHING(...)
+  SUFFUSE_SOLID_OPERATORS(SUFFUSE_NOTHING, SUFFUSE_WORD)  // partly covered cells by this drag
+#undef SUFFUSE_WORD
+  count
 };
 
-/// How a kernel's collision is built.
-enum class OperatorFamily {
-  two_rates,        ///< BGK and TRT
-  central_moments,  ///< CollisionOperator::central_moments
-  comoving_rates,   ///< CollisionOperator::trt_comoving
-};
-constexpr int kOperatorFamilies = 3;
+constexpr SolidKind kind_of(SolidOperator solid_operator) {
+#define SUFFUSE_KIND(word, ...) \
+  if (solid_operator == SolidOperator::word) return SolidKind::word;
+  SUFFUSE_SOLID_OPERATORS(SUFFUSE_NOTHING, SUFFUSE_KIND)
+#undef SUFFUSE_KIND
+#undef SUFFUSE_NOTHING
+  return SolidKind::mixed;
+}
 
-/// Which pieces a kernel is compiled with; a scene runs a kernel that has no others.
+/// The other way round, for a drag.
+constexpr SolidOperator drag_of(SolidKind kind) {
+  for (const SolidFacts& facts : kSolidOperators)
+    if (kind_of(facts.solid_operator) == kind) return facts.solid_operator;
+  return SolidOperator{};
+}
+
+/// Which pieces a kernel of a law is compiled with; a scene runs a kernel that has no others.
 struct KernelVariant {
-  OperatorFamily family = OperatorFamily::two_rates;
   bool forced = false;
   bool eddy_viscosity = false;
   SolidKind solids = SolidKind::none;
 };
 
-constexpr int kKernelVariants = 16 * kOperatorFamilies;
+constexpr int kKernelVariants = 4 * static_cast<int>(SolidKind::count);
 
 constexpr int index_of(const KernelVariant& v) {
-  return (v.forced ? 1 : 0) + (v.eddy_viscosity ? 2 : 0) + 4 * static_cast<int>(v.solids) +
-         16 * static_cast<int>(v.family);
+  return (v.forced ? 1 : 0) + (v.eddy_viscosity ? 2 : 0) + 4 * static_cast<int>(v.solids);
 }
 
 constexpr KernelVariant variant_of(int index) {
-  return {static_cast<OperatorFamily>(index / 16), (index & 1) != 0, (index & 2) != 0,
-          static_cast<SolidKind>(index / 4 % 4)};
+  return {(index & 1) != 0, (index & 2) != 0, static_cast<SolidKind>(index / 4)};
 }
 
 template <class T>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "collide_two_rates.h"
+#include "solid_cells.h"
+#include "solid_laws.h"  // written by lbm_solver/CMakeLists.txt: every header of solids/
 
 namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
@@ -36,75 +37,24 @@ struct SolidMask {
   }
 };
 
-/// As the populations' streams (see kPrefetchBytes in stream_collide.h): each line of floats once.
-template <class T>
-[[gnu::always_inline]] inline void fetch_ahead(const KernelCall<T>& call, std::ptrdiff_t cells) {
-  constexpr std::ptrdiff_t floats = 16;
-  if (kPackWidth<T> == floats || (cells & (floats - 1)) < kPackWidth<T>) {
-    const std::ptrdiff_t at = cells + call.solids_ahead;
-    __builtin_prefetch(call.fraction + at, 1);
-    if (call.strength != call.fraction) __builtin_prefetch(call.strength + at, 1);
-    for (int a = 0; a < 3; ++a) __builtin_prefetch(call.solid_momentum[a] + at, 1);
+/// Calls act(SolidLaw<...>{}) for an operator that takes a share of the collision. A choice at each pair, not
+/// a kernel for each of them: these kernels wait for memory, and would be as many again
+/// (docs/decisions/fluid-kernels.md).
+template <class Act>
+[[gnu::always_inline]] inline void with_mixed_law(SolidOperator solid_operator, const Act& act) {
+#define SUFFUSE_MIXED(word, ...)          \
+  case SolidOperator::word:               \
+    act(SolidLaw<SolidOperator::word>{}); \
+    break;
+#define SUFFUSE_DRAG(word, ...)
+  switch (solid_operator) {
+    SUFFUSE_SOLID_OPERATORS(SUFFUSE_MIXED, SUFFUSE_DRAG)
+    default:
+      __builtin_unreachable();  // a drag has a kernel of its own
   }
-  if (!call.exchange_ahead) return;
-  for (int a = 0; a < 3; ++a) __builtin_prefetch(call.exchange[a] + cells + call.solids_ahead, 1);
+#undef SUFFUSE_MIXED
+#undef SUFFUSE_DRAG
 }
-
-template <class T>
-[[gnu::always_inline]] inline void store_exchange(const KernelCall<T>& call, std::ptrdiff_t cells, int lanes,
-                                                  const Pack<T> (&exchange)[3]) {
-  for (int a = 0; a < 3; ++a) {
-    if (lanes == kPackWidth<T>)
-      store<T>(call.exchange[a] + cells, exchange[a]);
-    else
-      store_lanes<T>(call.exchange[a] + cells, exchange[a], lanes);
-  }
-}
-
-/// A strength below this counts as this where it divides. Strengths are multiples of 2^-22, or nothing.
-inline constexpr float kLeastStrength = 1e-12f;
-
-/// The divisor of SolidWeighting's B. Where the fractions of a cell add up to more than one,
-/// they shrink in proportion.
-template <class T>
-[[gnu::always_inline]] inline Pack<T> weighting_divisor(const WeightingTerms<T>& terms,
-                                                        const Pack<T>& fraction, const Pack<T>& strength) {
-  const Pack<T> clear = T(1) - fraction;
-  const Pack<T> open = clear > T(0) ? clear : Pack<T>{};
-  const Pack<T> covered = clear < T(0) ? fraction : Pack<T>{} + T(1);  // more than one where solids overlap
-  return terms.open * open + terms.strength * strength + terms.constant * covered;
-}
-
-/// Partly covered cells as a drag inside the cell (SolidOperator::force).
-struct PartialForce {
-  static constexpr bool kAddsForce = true;
-  static constexpr bool kMixes = false;
-
-  /// The cell exchanges 2 B (m - rho us), m the momentum with half of the other forces; a unit of its
-  /// strength S, 2/D (m - rho us) with D = S/B. One division gives 1/D and 1/S, which turns strength times
-  /// velocity into us.
-  template <class T>
-  [[gnu::always_inline]] static void force(std::ptrdiff_t cells, int lanes, const KernelCall<T>& call,
-                                           CellPack<T>& cell) {
-    fetch_ahead(call, cells);
-    const Pack<T> fraction = load_floats<T>(call.fraction + cells);
-    if (!any_positive(fraction)) return;
-    const Pack<T> strength = load_floats<T>(call.strength + cells);
-    constexpr T least = static_cast<T>(kLeastStrength);
-    const Pack<T> some = strength > least ? strength : broadcast<T>(least);
-    const Pack<T> flow =
-        (T(2) * call.weighting.numerator) / (some * weighting_divisor<T>(call.weighting, fraction, strength));
-    const Pack<T> toward = flow * some, solid_flow = flow * cell.density, half_strength = T(0.5) * strength;
-    Pack<T> exchange[3];
-    for (int a = 0; a < 3; ++a) {
-      exchange[a] = toward * cell.momentum[a] - solid_flow * load_floats<T>(call.solid_momentum[a] + cells);
-      const Pack<T> half = half_strength * exchange[a];
-      cell.force[a] = cell.force[a] - (half + half);
-      cell.momentum[a] = cell.momentum[a] - half;
-    }
-    store_exchange<T>(call, cells, lanes, exchange);
-  }
-};
 
 /// Partly covered cells by a solid operator that takes the share B of the collision. A force on the cell acts
 /// on the fluid with 1 - B and on the solid with B.
@@ -113,11 +63,7 @@ struct PartialMixed {
   static constexpr bool kAddsForce = false;
   static constexpr bool kMixes = true;
 
-  /// Even and odd halves of a pair's equilibria less their weights, divided by the weight.
-  template <class T>
-  struct Halves {
-    Pack<T> even, odd;
-  };
+  /// A pair's equilibria less their weights, divided by the weight.
   template <int Direction, class T>
   [[gnu::always_inline]] static Halves<T> equilibrium(const CellPack<T>& cell, const Pack<T> (&velocity)[3]) {
     const Pack<T> cu = along<Direction>(velocity);
@@ -141,21 +87,12 @@ struct PartialMixed {
     const Halves<T> fluid = equilibrium<Direction, T>(cell, cell.velocity);
     const Pack<T> half_sum = T(0.5) * (before[Direction] + before[Direction + 1]);
     const Pack<T> half_difference = T(0.5) * (before[Direction] - before[Direction + 1]);
-    Pack<T> even, odd;
-    switch (call.solid_operator) {
-      case SolidOperator::sc1:
-        even = w * (solid.even - fluid.even);
-        odd = w * (solid.odd + fluid.odd) - T(2) * half_difference;
-        break;
-      case SolidOperator::sc2:
-        even = w * solid.even - half_sum + (T(1) - call.even_rate) * (half_sum - w * fluid.even);
-        odd = w * solid.odd - half_difference + (T(1) - call.odd_rate) * (half_difference - w * fluid.odd);
-        break;
-      default:
-        even = Pack<T>{};
-        odd = T(2) * (w * solid.odd - half_difference);
-        break;
-    }
+    Halves<T> change{};
+    with_mixed_law(
+        call.solid_operator, [&](auto law) __attribute__((always_inline)) {
+          change = law.template pair<T>({w, solid, fluid, half_sum, half_difference, call});
+        });
+    const auto& [even, odd] = change;
     const Pack<T> keep = T(1) - mixing.weight;
     after[Direction] =
         before[Direction] + keep * (after[Direction] - before[Direction]) + mixing.weight * (even + odd);
@@ -215,9 +152,10 @@ struct PartialMixed {
     };
     const Pack<T> solid = rest(mixing.solid_velocity), fluid = rest(cell.velocity);
     Pack<T> change{};
-    if (call.solid_operator == SolidOperator::sc1) change = solid - fluid;
-    if (call.solid_operator == SolidOperator::sc2)
-      change = solid - before[0] + (T(1) - call.even_rate) * (before[0] - fluid);
+    with_mixed_law(
+        call.solid_operator, [&](auto law) __attribute__((always_inline)) {
+          change = law.template rest<T>({solid, fluid, before[0], call});
+        });
     after[0] = before[0] + (T(1) - mixing.weight) * (after[0] - before[0]) + mixing.weight * change;
   }
 };

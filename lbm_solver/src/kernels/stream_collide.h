@@ -1,7 +1,5 @@
 #pragma once
 
-#include "collide_central_moments.h"
-#include "collide_two_rates.h"
 #include "solid_policies.h"
 
 namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {

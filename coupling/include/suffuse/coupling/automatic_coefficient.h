@@ -19,9 +19,7 @@ namespace suffuse::coupling {
 /// and random packings is right at 5 to 20 cells a diameter (docs/decisions/solid-operator.md). Below a cell,
 /// where the survey of pores no longer sees a sphere, a point in the water: 10 (D^-3/2 - 1) is added, with
 /// which a lone sphere of 0.3 to 1 cells falls within 30 % of its speed in Stokes flow.
-struct CoefficientLaw {
-  double constant = 0, single = 0, crowded = 0, narrow = 0;
-
+struct CoefficientLaw : lbm::CoefficientTerms {
   double of_sphere(double diameter) const;
   double of_pore(double surface_per_pore) const {
     return (crowded + narrow * surface_per_pore / 6) * surface_per_pore / 6;
@@ -29,10 +27,7 @@ struct CoefficientLaw {
   double operator()(double diameter, double surface_per_pore) const;
 };
 
-/// Coefficients beyond this are cut: strengths add up exactly in any order up to here.
-inline constexpr double kLargestCoefficient = 60;
-
-/// The law of an operator. A UserError for one that has none: `force` and `sc3` do.
+/// The law of an operator (suffuse/lbm/solid_operators.h). A UserError for one that has none.
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
 /// Error of a packing's permeability (a share: 0.03 is 3 %) to be expected with `force`, the automatic

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "suffuse/common/linear_algebra.h"
+#include "suffuse/micromechanics/sphere.h"
 
 namespace suffuse::coupling {
 
@@ -41,8 +42,7 @@ struct LoadRule {
   bool rotation = true;                 ///< false: no torque
 };
 
-/// Volume of a sphere, m^3.
-double sphere_volume(double radius);
+using micromechanics::sphere_volume;
 
 /// What the fluid outside does to a grain, from what its cells exchanged in a fluid step:
 ///

@@ -9,6 +9,9 @@ enum class FractionMethod {
   subcells,  ///< share of n^3 points inside (Appendix C's code: 5^3)
 };
 
+/// Coefficients of spheres and pores beyond this are cut: strengths add up exactly in any order up to here.
+inline constexpr double kLargestCoefficient = 60;
+
 /// A sphere in lattice units: cells of the whole box, cell (0,0,0) reaching from 0 to 1; cells a step.
 struct LatticeSphere {
   double position[3]{};

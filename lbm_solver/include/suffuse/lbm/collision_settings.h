@@ -1,19 +1,12 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
+
+#include "suffuse/lbm/collision_operators.h"
 
 namespace suffuse::lbm {
-
-enum class CollisionOperator {
-  bgk,  ///< one relaxation time (thesis eqs 3.20-3.22)
-  trt,  ///< two relaxation times: even parts at the viscosity's rate, odd parts tied to it by `magic`
-  /// TRT about the local velocity: moments in the frame of the fluid relax, not those of the lattice. The
-  /// same as TRT in creeping flow. Where grains carry their fluid along at a speed V beyond V/nu = 2 (lattice
-  /// units), TRT's flow between them falls behind them and the drag rises; here by less than half as much
-  /// (docs/decisions/solid-operator.md). A third more time for the fluid.
-  trt_comoving,
-  central_moments,  ///< relaxes moments about the local velocity; for relaxation times near 0.5
-};
 
 /// Everything that a collision needs to know, in lattice units.
 struct CollisionSettings {
@@ -22,9 +15,9 @@ struct CollisionSettings {
   /// tau; kinematic viscosity = (tau - 1/2)/3 (thesis eq 3.23). Must be > 0.5.
   double relaxation_time = 0.8;
 
-  /// TRT and TRT comoving only: Lambda = (1/w+ - 1/2)(1/w- - 1/2) > 0. With 3/16 a half-way bounce-back wall
-  /// lies exactly half-way in Poiseuille flow and the permeability does not depend on the viscosity (docs
-  /// key: ginzburg2008).
+  /// Of operators with two relaxation times: Lambda = (1/w+ - 1/2)(1/w- - 1/2) > 0. With 3/16 a half-way
+  /// bounce-back wall lies exactly half-way in Poiseuille flow and the permeability does not depend on the
+  /// viscosity (docs key: ginzburg2008).
   double magic = 3. / 16;
 
   /// Smagorinsky constant C; the eddy viscosity is C^2 |S| in lattice units (docs key: hou1996). 0: none.
@@ -44,14 +37,19 @@ constexpr double relaxation_time_of(double viscosity) {
 
 /// Whether it has two relaxation times, tied by `magic`.
 constexpr bool has_magic(CollisionOperator collision_operator) {
-  return collision_operator == CollisionOperator::trt ||
-         collision_operator == CollisionOperator::trt_comoving;
+  return facts_of(collision_operator).odd_rate == OddRate::magic;
 }
 
 /// Refuses settings that cannot work with a UserError that says what to change.
 void check(const CollisionSettings& settings);
 
-/// "bgk", "trt", "trt_comoving" or "central_moments".
+/// Its word in scripts.
 std::string name_of(CollisionOperator collision_operator);
+
+/// Words and what they mean, in the order of the list.
+std::vector<std::pair<std::string, CollisionOperator>> collision_words();
+
+/// "trt or trt_comoving": for messages.
+std::string words_with_magic();
 
 }  // namespace suffuse::lbm

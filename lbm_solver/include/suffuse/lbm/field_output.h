@@ -11,6 +11,23 @@ namespace suffuse::lbm {
 
 enum class Field { velocity, pressure, density, solid_fraction };
 
+struct FieldFacts {
+  Field field;
+  const char* word;  ///< in scripts and files
+  const char* unit;
+  std::size_t components;
+};
+
+/// Every field, in the order of the enumeration.
+inline constexpr FieldFacts kFields[] = {{Field::velocity, "velocity", "m/s", 3},
+                                         {Field::pressure, "pressure", "Pa", 1},
+                                         {Field::density, "density", "kg/m3", 1},
+                                         {Field::solid_fraction, "solid_fraction", "1", 1}};
+
+constexpr const FieldFacts& facts_of(Field field) {
+  return kFields[static_cast<int>(field)];
+}
+
 struct FieldOutputSettings {
   std::string path;  ///< of the HDF5 file; the XDMF file beside it is named like it, with .xdmf
   std::vector<Field> fields{Field::velocity, Field::pressure};

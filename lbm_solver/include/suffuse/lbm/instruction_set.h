@@ -1,6 +1,6 @@
 #pragma once
 
-#include "suffuse/common/instruction_set.h"
+#include "suffuse/simd/instruction_set.h"
 
 namespace suffuse::lbm {
 

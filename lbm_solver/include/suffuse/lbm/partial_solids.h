@@ -3,7 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "suffuse/common/linear_algebra.h"
 #include "suffuse/lbm/solid_operators.h"
@@ -20,6 +22,7 @@ struct PartialSolidSettings {
 };
 
 std::string name_of(SolidOperator solid_operator);
+std::vector<std::pair<std::string, SolidOperator>> solid_words();
 std::string name_of(SolidWeighting weighting);
 
 /// A UserError where the settings cannot work: a coefficient that is not positive, coefficients with another
@@ -40,11 +43,11 @@ double solid_weight(const PartialSolidSettings& settings, const PartialSolidCell
                     double relaxation_time);
 
 /// Share of the solids in the velocity of a cell over a step: the momentum before it and that after it, which
-/// is what streams, have this mean. B/2 (SC1, SC2) or B (SC3, `force`), see HeldTerms.
+/// is what streams, have this mean. Half of the operator's `share` times B, see HeldTerms.
 double mean_share(const PartialSolidSettings& settings, const PartialSolidCell& cell, double relaxation_time);
 
-/// In one step the momentum of a cell comes nearer to its solid's by the share B (SC1, SC2) or 2B (SC3,
-/// `force`) of the difference, and the exchange is what it gives. So after the step the cell is still
+/// In one step the momentum of a cell comes nearer to its solid's by B (SC1, SC2) or 2B (SC3, `force`) of the
+/// difference, and the exchange is what it gives. So after the step the cell is still
 /// exchange (1/share - 1) away; times the covered part eps that is
 ///   exchange eps (base + (slope (1 - eps) + least)/strength)
 /// with the cell's strength, for every weighting.

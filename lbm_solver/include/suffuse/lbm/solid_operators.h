@@ -2,17 +2,54 @@
 
 namespace suffuse::lbm {
 
-/// How a cell that solids cover in part treats the fluid in it. SC1 to SC3 replace a share B of the collision
-/// by a solid operator: f' = f + (1-B) Omega_fluid + B Omega_solid (thesis eq 3.33; docs key:
-/// nobletorczynski1998). With e the equilibrium, o the opposite direction, u the fluid's and us the solid's
-/// velocity:
+/// How a cell that solids cover in part treats the fluid in it, one line for each operator; enumeration,
+/// script words, kernels, tests and the table of docs/reference/lbm.md follow from it. Its law is the header
+/// of lbm_solver/solids with its word for a name.
+///
+/// - MIXED: a share B of the collision is replaced by a solid operator,
+///   f' = f + (1-B) Omega_fluid + B Omega_solid (thesis eq 3.33; docs key: nobletorczynski1998). DRAG: the
+///   full collision with a force of the solid's.
+/// - share: in one step the momentum of a cell comes nearer to its solid's by this times B of the difference.
+/// - terms of the automatic coefficient, see CoefficientLaw; nothing if it has none.
+// clang-format off
+#define SUFFUSE_SOLID_OPERATORS(MIXED, DRAG) \
+  MIXED(sc1, 1, {}, "bounce-back of the non-equilibrium part (Noble and Torczynski)") \
+  MIXED(sc2, 1, {}, "relaxation towards the solid's equilibrium (Noble and Torczynski)") \
+  MIXED(sc3, 2, (CoefficientTerms{0.64, 2.25, 7.6, 30.1}), "bounce-back in the solid's frame (Owen et al.)") \
+  DRAG(force, 2, (CoefficientTerms{1.76, 1.79, 13.9, 53.4}), "a drag inside the cell, in Guo's form")
+// clang-format on
+
 enum class SolidOperator {
-  sc1,    ///< f_o - f_i + e_i(us) - e_o(u): bounce-back of the non-equilibrium part (docs key:
-          ///< nobletorczynski1998)
-  sc2,    ///< e_i(us) - f_i + (1-rate)(f_i - e_i(u)): relaxation towards the solid's equilibrium
-  sc3,    ///< f_o - f_i + e_i(us) - e_o(us): bounce-back in the solid's frame (docs key: owen2011)
-  force,  ///< full collision with a Guo force F = F_ext - 2B (j + F_ext/2 - rho us): a drag inside the cell
+#define SUFFUSE_WORD(word, ...) word,
+  SUFFUSE_SOLID_OPERATORS(SUFFUSE_WORD, SUFFUSE_WORD)
+#undef SUFFUSE_WORD
 };
+
+/// Terms of an operator's automatic coefficient: see CoefficientLaw.
+struct CoefficientTerms {
+  double constant = 0, single = 0, crowded = 0, narrow = 0;
+  constexpr bool given() const { return constant > 0; }
+};
+
+/// A line of the list.
+struct SolidFacts {
+  SolidOperator solid_operator;
+  const char* word;
+  double share;
+  CoefficientTerms coefficient;
+  const char* meaning;
+};
+
+inline constexpr SolidFacts kSolidOperators[] = {
+#define SUFFUSE_FACTS(word, share, coefficient, meaning) \
+  {SolidOperator::word, #word, share, coefficient, meaning},
+    SUFFUSE_SOLID_OPERATORS(SUFFUSE_FACTS, SUFFUSE_FACTS)
+#undef SUFFUSE_FACTS
+};
+
+constexpr const SolidFacts& facts_of(SolidOperator solid_operator) {
+  return kSolidOperators[static_cast<int>(solid_operator)];
+}
 
 /// B as a function of the solid fraction eps, with t = tau - 1/2.
 enum class SolidWeighting {

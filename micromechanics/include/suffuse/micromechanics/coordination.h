@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "suffuse/micromechanics/contact_network.h"
+#include "suffuse/micromechanics/sphere.h"
 #include "suffuse/micromechanics/sums.h"
 
 namespace suffuse::micromechanics {
@@ -13,9 +14,6 @@ struct SizeSplit {
 
   bool is_fine(double radius) const { return 2 * radius < diameter; }
 };
-
-/// Volume of a sphere, m³.
-double sphere_volume(double radius);
 
 /// Number of contacts of each owned grain, in the order of Packing::grains. A grain that touches its own
 /// periodic image has one contact for each side.

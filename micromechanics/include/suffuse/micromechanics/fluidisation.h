@@ -8,6 +8,9 @@
 
 namespace suffuse::micromechanics {
 
+/// Share of the solids below the height of a bed: beyond it there are only the odd grains of the surface.
+inline constexpr double kBedShare = 0.99;
+
 /// A least-squares line y = intercept + slope x.
 struct LineFit {
   double intercept = 0, slope = 0;

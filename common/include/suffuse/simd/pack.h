@@ -12,10 +12,11 @@
 #endif
 
 #ifndef SUFFUSE_KERNEL_NAMESPACE
-#error "compile through kernels/kernels.cpp with SUFFUSE_KERNEL_NAMESPACE set to the instruction set's name"
+#error \
+    "compile through suffuse_vector_kernels (cmake/SuffuseVectorKernels.cmake), which names the instruction set"
 #endif
 
-namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
+namespace suffuse::simd::SUFFUSE_KERNEL_NAMESPACE {
 
 #if defined(__AVX512F__)
 inline constexpr int kPackBytes = 64;
@@ -136,4 +137,4 @@ template <class V>
 }
 #endif
 
-}  // namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE
+}  // namespace suffuse::simd::SUFFUSE_KERNEL_NAMESPACE

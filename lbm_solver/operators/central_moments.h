@@ -1,8 +1,17 @@
 #pragma once
 
-#include "collide_two_rates.h"
+#include "cell_pack.h"
 
 namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
+
+/// k_aabb = rho/9.
+struct FourthAtEquilibrium {
+  template <class T>
+  [[gnu::always_inline]] static Pack<T> fourth(const CellPack<T>& cell, const Pack<T>&, const Pack<T>&,
+                                               const Pack<T>&) {
+    return T(1. / 36) * cell.density_deviation;
+  }
+};
 
 /// Relaxation of moments about the local velocity (docs key: derosis2019): the deviatoric stress at the
 /// viscosity's rate, everything else (the trace and the moments of third and fourth order) set to its
@@ -18,7 +27,10 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 ///   M_aabb = k_aabb + u (M_abb + k_abb) + v (M_aab + k_aab) - u v (M_ab - k_ab).
 /// Only deviations and products with velocities are ever summed: float storage keeps its small velocities.
 /// D3Q19 has no c_x c_y c_z.
-template <bool kForced, bool kEddy>
+///
+/// Closure::fourth gives a quarter of k_aabb of a plane, less the weights', from the second central moments
+/// after the collision: what the normal ones are beyond rho/3, and the shear.
+template <bool kForced, bool kEddy, class Closure = FourthAtEquilibrium>
 struct CentralMoments {
   /// After the collision, a quarter of: M_abb, M_aab, M_aabb of a plane.
   template <class T>
@@ -30,7 +42,7 @@ struct CentralMoments {
   template <class T>
   struct Relaxed {
     Pack<T> whole[3];         ///< W_aa
-    Pack<T> fourth;           ///< a quarter of k_aabb, less the weights'
+    Pack<T> beyond[3];        ///< k_aa - rho/3
     Pack<T> quarter_u[3];     ///< u/4
     Pack<T> third_source[3];  ///< a quarter of k_abb; only with a force
   };
@@ -45,16 +57,17 @@ struct CentralMoments {
     const V &u = cell.velocity[a], &v = cell.velocity[b];
     const V &qu = relaxed.quarter_u[a], &qv = relaxed.quarter_u[b];
     const V twice = T(2) * shear;
+    const V fourth = Closure::template fourth<T>(cell, relaxed.beyond[a], relaxed.beyond[b], shear);
     PlaneMoments<T> m;
     m.third_a = qu * relaxed.whole[b] + qv * twice;
     m.third_b = qv * relaxed.whole[a] + qu * twice;
     if constexpr (kForced) {
       m.third_a = m.third_a + ((T(0.5) * v) * qv * cell.force[a] + relaxed.third_source[a]);
       m.third_b = m.third_b + ((T(0.5) * u) * qu * cell.force[b] + relaxed.third_source[b]);
-      m.fourth = (u * (m.third_a + relaxed.third_source[a]) + relaxed.fourth) +
+      m.fourth = (u * (m.third_a + relaxed.third_source[a]) + fourth) +
                  (v * (m.third_b + relaxed.third_source[b]) - (qu * v) * shift);
     } else {
-      m.fourth = (u * m.third_a + relaxed.fourth) + (v * m.third_b - (qu * v) * shift);
+      m.fourth = (u * m.third_a + fourth) + (v * m.third_b - (qu * v) * shift);
     }
     const V second_moment = T(0.25) * (shear + shift);
     const V plus = m.fourth + second_moment, minus = m.fourth - second_moment;
@@ -107,9 +120,9 @@ struct CentralMoments {
     const V mean = T(1. / 3) * (normal[0] + normal[1] + normal[2]);
     const V base = T(1. / 3) * (cell.density - cell.density_deviation);
     Relaxed<T> relaxed;
-    relaxed.fourth = T(1. / 36) * cell.density_deviation;
     for (int a = 0; a < 3; ++a) {
-      normal[a] = keep * (normal[a] - mean) + (normal_shift[a] + third);
+      relaxed.beyond[a] = keep * (normal[a] - mean);
+      normal[a] = relaxed.beyond[a] + (normal_shift[a] + third);
       shear[a] = keep * shear[a];
       relaxed.whole[a] = base + normal[a];
       relaxed.quarter_u[a] = T(0.25) * u[a];
@@ -138,5 +151,10 @@ struct CentralMoments {
     g.put(2 * axis + 2, even - odd);
   }
 };
+
+namespace central_moments {
+template <bool kForced, bool kEddy>
+using Law = CentralMoments<kForced, kEddy>;
+}
 
 }  // namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE

@@ -1,0 +1,158 @@
+#pragma once
+
+#include "cell_pack.h"
+
+namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
+
+/// Q = sum c c (f - feq), the force's own share taken out; tangential: xy, xz, yz.
+template <class T>
+struct Stress {
+  Pack<T> normal[3], tangential[3];
+};
+template <bool kForced, class T, class Populations>
+[[gnu::always_inline]] inline Stress<T> stress_of(const Populations& g, const CellPack<T>& cell) {
+  const auto diagonal = [&](int first, int second) {
+    return (g.get(first) + g.get(first + 1)) + (g.get(second) + g.get(second + 1));
+  };
+  const auto shear = [&](int first, int second) {
+    return (g.get(first) + g.get(first + 1)) - (g.get(second) + g.get(second + 1));
+  };
+  const Pack<T> xy = diagonal(7, 9), xz = diagonal(11, 13), yz = diagonal(15, 17);
+  const auto &u = cell.velocity, &j = cell.momentum;
+  const Pack<T> third = T(1. / 3) * cell.density_deviation;
+  Stress<T> stress{{(g.get(1) + g.get(2)) + (xy + xz) - third - j[0] * u[0],
+                    (g.get(3) + g.get(4)) + (xy + yz) - third - j[1] * u[1],
+                    (g.get(5) + g.get(6)) + (xz + yz) - third - j[2] * u[2]},
+                   {shear(7, 9) - j[0] * u[1], shear(11, 13) - j[0] * u[2], shear(15, 17) - j[1] * u[2]}};
+  if constexpr (kForced) {
+    const auto& f = cell.force;
+    auto &normal = stress.normal, &tangential = stress.tangential;
+    for (int a = 0; a < 3; ++a) normal[a] = normal[a] + u[a] * f[a];
+    tangential[0] = tangential[0] + T(0.5) * (u[0] * f[1] + u[1] * f[0]);
+    tangential[1] = tangential[1] + T(0.5) * (u[0] * f[2] + u[2] * f[0]);
+    tangential[2] = tangential[2] + T(0.5) * (u[1] * f[2] + u[2] * f[1]);
+  }
+  return stress;
+}
+
+/// Sum over all directions of Q_ab^2.
+template <class T>
+[[gnu::always_inline]] inline Pack<T> squared(const Stress<T>& stress) {
+  const auto &normal = stress.normal, &tangential = stress.tangential;
+  return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] +
+         T(2) *
+             (tangential[0] * tangential[0] + tangential[1] * tangential[1] + tangential[2] * tangential[2]);
+}
+
+/// Moments as the lattice has them: nothing is added to the parts of pairs.
+struct LatticeFrame {
+  static constexpr bool kAdds = false;
+  template <class T>
+  struct Parts {};
+};
+
+/// BGK and TRT: even and odd parts of each pair of directions relax at their own rates (thesis eq 3.22 for
+/// equal ones; docs key: ginzburg2008), with Guo's force term split the same way (docs key: guo2002).
+///
+/// `Frame` says whose moments these are: the lattice's, or, with what ComovingFrame adds, the fluid's.
+template <bool kForced, bool kEddy, class Frame = LatticeFrame>
+struct TwoRates {
+  /// What pairs of one weight share. With s and d the sum and difference of a pair, the pair after the
+  /// collision is E + O and E - O with
+  ///   E = keep_even s + (slope . c) (u . c) + isotropic,
+  ///   O = keep_odd d + odd . c.
+  template <class T>
+  struct Shared {
+    Pack<T> slope[3];   ///< 9/2 w (rate rho u + (2 - rate) F)
+    Pack<T> odd[3];     ///< 3 w (rate rho u + (1 - rate/2) F)
+    Pack<T> isotropic;  ///< w (rate (rho - 1 - 3/2 rho u^2) - 3 (1 - rate/2) u.F)
+  };
+
+  template <int Direction, class T, class Populations>
+  [[gnu::always_inline]] static void relax_pair(Populations& g, const CellPack<T>& cell,
+                                                const Pack<T>& keep_even, const Pack<T>& keep_odd,
+                                                const Shared<T>& shared,
+                                                const typename Frame::template Parts<T>& parts) {
+    const Pack<T> forward = g.get(Direction), backward = g.get(Direction + 1);
+    const Pack<T> sum = forward + backward, difference = forward - backward;
+    const Pack<T> cu = along<Direction>(cell.velocity), slope = along<Direction>(shared.slope);
+    Pack<T> even = keep_even * sum + (slope * cu + shared.isotropic);
+    Pack<T> odd = keep_odd * difference + along<Direction>(shared.odd);
+    if constexpr (Frame::kAdds) {
+      even = even + parts.template even<Direction>();
+      odd = odd + parts.template odd<Direction>();
+    }
+    g.put(Direction, even + odd);
+    g.put(Direction + 1, even - odd);
+  }
+
+  template <class T, class Populations>
+  [[gnu::always_inline]] static void collide(Populations& g, const CellPack<T>& cell,
+                                             const KernelCall<T>& call) {
+    const auto& u = cell.velocity;
+    Pack<T> even_rate = broadcast<T>(call.even_rate), odd_rate = broadcast<T>(call.odd_rate);
+    Stress<T> stress;
+    if constexpr (kEddy || Frame::kAdds) stress = stress_of<kForced, T>(g, cell);
+    if constexpr (kEddy) {
+      const Pack<T> tau = eddy_relaxation_time<T>(call, squared<T>(stress), cell.inverse_density);
+      if (call.single_rate) {
+        even_rate = odd_rate = T(1) / tau;
+      } else {  // 1/tau and half/(half/2 + Lambda) with one division
+        const Pack<T> half = tau - T(0.5), divisor = T(0.5) * half + call.magic;
+        const Pack<T> inverse = T(1) / (tau * divisor);
+        even_rate = divisor * inverse;
+        odd_rate = (half * tau) * inverse;
+      }
+    }
+    typename Frame::template Parts<T> parts;
+    if constexpr (Frame::kAdds) {
+      parts = Frame::template parts<T>(g, cell, stress, even_rate, odd_rate);
+      odd_rate = even_rate;
+    }
+    const Pack<T> u2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
+    Pack<T> isotropic = even_rate * (cell.density_deviation - (T(1.5) * cell.density) * u2);
+    constexpr T w0 = static_cast<T>(kWeight[0]), w1 = static_cast<T>(kWeight[1]);
+    Shared<T> axes, diagonals;
+    const Pack<T> even_flow = (T(4.5) * w1 * even_rate) * cell.density,
+                  odd_flow = (T(3) * w1 * odd_rate) * cell.density;
+    for (int a = 0; a < 3; ++a) {
+      axes.slope[a] = even_flow * u[a];
+      axes.odd[a] = odd_flow * u[a];
+    }
+    if constexpr (kForced) {
+      const auto& f = cell.force;
+      const Pack<T> even_force = T(1) - T(0.5) * even_rate, odd_force = T(1) - T(0.5) * odd_rate;
+      isotropic = isotropic - (T(3) * even_force) * (u[0] * f[0] + u[1] * f[1] + u[2] * f[2]);
+      for (int a = 0; a < 3; ++a) {
+        axes.slope[a] = axes.slope[a] + (T(9) * w1 * even_force) * f[a];
+        axes.odd[a] = axes.odd[a] + (T(3) * w1 * odd_force) * f[a];
+      }
+    }
+    axes.isotropic = w1 * isotropic;
+    diagonals.isotropic = T(0.5) * axes.isotropic;  // whose weight is half of the axes'
+    for (int a = 0; a < 3; ++a) {
+      diagonals.slope[a] = T(0.5) * axes.slope[a];
+      diagonals.odd[a] = T(0.5) * axes.odd[a];
+    }
+    const Pack<T> keep_even = T(0.5) - T(0.5) * even_rate, keep_odd = T(0.5) - T(0.5) * odd_rate;
+    Pack<T> rest = (T(1) - even_rate) * g.get(0) + w0 * isotropic;
+    if constexpr (Frame::kAdds) rest = rest + parts.rest();
+    g.put(0, rest);
+    relax_pair<1, T>(g, cell, keep_even, keep_odd, axes, parts);
+    relax_pair<3, T>(g, cell, keep_even, keep_odd, axes, parts);
+    relax_pair<5, T>(g, cell, keep_even, keep_odd, axes, parts);
+    relax_pair<7, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    relax_pair<9, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    relax_pair<11, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    relax_pair<13, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    relax_pair<15, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    relax_pair<17, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+  }
+};
+
+namespace two_rates {
+template <bool kForced, bool kEddy>
+using Law = TwoRates<kForced, kEddy>;
+}
+
+}  // namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE
