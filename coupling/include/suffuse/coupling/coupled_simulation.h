@@ -9,6 +9,7 @@
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/coupling/solid_mapping.h"
+#include "suffuse/coupling/virtual_mass.h"
 
 namespace suffuse::coupling {
 
@@ -28,6 +29,9 @@ class SeenGrains {
   std::vector<int> ids_;
   bool has_seen_ = false;  ///< nothing seen is not the same as no grains
 };
+
+/// By which a simulation with these settings gives grains inertia of the fluid.
+VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Units& units);
 
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
 /// hands what it exerted to the grains and advances these.
@@ -128,6 +132,11 @@ class CoupledSimulation {
   /// wall that they touch. Collective.
   long grains_behind_walls() const;
 
+  /// What effects have come to, from the next step on: operator and eddy viscosity of the collision, buoyancy,
+  /// torque. At first those of the settings.
+  void set_effects(const EffectSettings& effects);
+  const EffectSettings& effects() const { return effects_; }
+
   /// New values from the next step on, SI.
   void set_faces(const lbm::FaceConditions& faces);
   void set_gravity(const Vec3& si) { settings_.gravity = si; }
@@ -147,6 +156,7 @@ class CoupledSimulation {
   void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
+  EffectSettings effects_;
   lbm::Units units_;
   Vec3 origin_;
   ParticlePort& grains_;
