@@ -61,8 +61,10 @@ EffectReport::Row part(const char* name, const char* what, double share) {
 
 }  // namespace
 
-void EffectReport::begin(LAMMPS_NS::LAMMPS* lmp, const RunEffects& effects, long step) {
-  first_ = counted_ = step;
+void EffectReport::begin(LAMMPS_NS::LAMMPS* lmp, const RunEffects& effects,
+                         const CoupledSimulation& simulation) {
+  first_ = counted_ = simulation.fluid().steps();
+  rested_before_ = simulation.rested_steps();
   steps_on_.assign(effects.states().size(), 0);
   films_before_ = effects.film_seconds(lmp);
 }
@@ -103,7 +105,10 @@ std::vector<EffectReport::Row> EffectReport::rows(LAMMPS_NS::LAMMPS* lmp, const 
     }
     all.push_back(row);
   }
-  all.push_back(part("fluid", simulation.method() != nullptr ? "averaged" : "lattice", std::max(0., fluid)));
+  Row water = part("fluid", simulation.method() != nullptr ? "averaged" : "lattice", std::max(0., fluid));
+  water.steps_share = 1 - static_cast<double>(simulation.rested_steps() - rested_before_) / steps;
+  water.state.on = *water.steps_share > 0;
+  all.push_back(water);
   all.push_back(part("solid coupling", "mapping and forces on grains", seconds[1] / wall));
   all.push_back(part("outputs", "monitors, outputs, saved states and checks", seconds[3] / wall));
   return all;

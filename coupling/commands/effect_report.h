@@ -13,8 +13,8 @@ namespace suffuse::coupling {
 /// How long each effect acted in an `lbm run`, and which share of its time it took.
 class EffectReport {
  public:
-  /// At the beginning of a run, after so many fluid steps.
-  void begin(LAMMPS_NS::LAMMPS* lmp, const RunEffects& effects, long step);
+  /// At the beginning of a run.
+  void begin(LAMMPS_NS::LAMMPS* lmp, const RunEffects& effects, const CoupledSimulation& simulation);
   /// Before effects are decided again, and at the end: the steps since the last call went by with `effects`.
   void count(const RunEffects& effects, long step);
 
@@ -34,6 +34,7 @@ class EffectReport {
   long first_ = 0, counted_ = 0;
   std::vector<long> steps_on_;  ///< in the order of the effects
   double films_before_ = 0;     ///< s
+  long rested_before_ = 0;      ///< steps of the water
 };
 
 /// Where the report of a scene belongs: effects.json in the folder of its first monitor or output; empty without

@@ -215,6 +215,7 @@ lbm::Decomposition LbmCommand::decomposition(Vec3& low) {
 
 void LbmCommand::build() {
   CoupledSettings coupled = settings_now();
+  coupled.skip_rest = true;
   const EffectSettings effects = effects_.start(coupled, *port_, lmp_->world, state_to_read_);
   port_->check_box(coupled.fluid.faces);
   Vec3 low;

@@ -190,7 +190,8 @@ void LbmRun::begin(const RunRequest& request, std::optional<double> continue_aft
   follow_variables_ = values_change(settings_);
   first_ = simulation_.fluid().steps();
   last_ = first_ + steps;
-  report_.begin(lmp_, effects_, first_);
+  report_.begin(lmp_, effects_, simulation_);
+  rested_ = simulation_.rested_steps();
   start_ = MPI_Wtime();
   check(first_);
   output_.write(lmp_, port_, simulation_);
@@ -324,6 +325,8 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
                     simulation_.units().time_to_si(made)));
   say(where_time_went);
+  if (const long rested = simulation_.rested_steps() - rested_; rested > 0)
+    say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested, made));
   if (const auto note = drag_note()) say(*note);
   if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
 }

@@ -531,7 +531,10 @@ void CoupledSimulation::step(bool loads_asked_for) {
   if (method_) return step_method();
   place_spheres();
   const bool loads_wanted = loads_asked_for || grains_.reads_loads(loads_span() * substeps_);
-  step_fluid(loads_wanted);
+  if (water_rests())
+    rest(loads_wanted);
+  else
+    step_fluid(loads_wanted);
   stepped_ = true;
   if (loads_wanted) hand_loads_over();
   const Stopwatch watch(times_.grains);

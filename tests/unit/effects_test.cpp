@@ -187,6 +187,49 @@ TEST_CASE("A run that begins with a saved state decides as the one that went on"
                     Catch::Contains("effect turbulence"));
 }
 
+TEST_CASE("Water at rest that nothing moves costs no step, and flows as ever once a grain moves") {
+  CoupledSettings settings = water();
+  settings.substeps = 1;
+  settings.gravity = Vec3(0, 0, -9.81);
+  const double step = lbm::Units(settings.units).time_step();
+  PrescribedGrains::Grain grain;
+  grain.position = 0.8e-3 * Vec3::Ones();
+  grain.radius = 0.35e-3;
+  const auto held = [&] { return PrescribedGrains({grain}, 1.6e-3 * Vec3::Ones(), {true, true, true}, step); };
+  PrescribedGrains resting_grains = held(), computed_grains = held();
+  const auto parts = lbm::Decomposition::balanced(MPI_COMM_WORLD, {16, 16, 16});
+  settings.skip_rest = true;
+  CoupledSimulation resting(settings, parts, Vec3::Zero(), resting_grains);
+  settings.skip_rest = false;
+  CoupledSimulation computed(settings, parts, Vec3::Zero(), computed_grains);
+  const auto both = [&](int steps) {
+    for (int n = 0; n < steps; ++n) {
+      resting.step(true);
+      computed.step(true);
+    }
+  };
+  both(3);
+  CHECK(resting.rested_steps() == 3);
+  CHECK(computed.rested_steps() == 0);
+  CHECK(resting.fluid().steps() == 3);
+  for (int a = 0; a < 6; ++a) CHECK(resting_grains.memory().load[a] == computed_grains.memory().load[a]);
+  CHECK(resting_grains.memory().load[2] == Approx(9.81 * 1000 * sphere_volume(0.35e-3)));  // it is buoyant
+  resting_grains.list[0].velocity = computed_grains.list[0].velocity = Vec3(1e-3, 0, 0);
+  both(4);
+  CHECK(resting.rested_steps() == 3);
+  CHECK(resting_grains.memory().load[0] < 0);
+  for (int a = 0; a < 6; ++a) CHECK(resting_grains.memory().load[a] == computed_grains.memory().load[a]);
+  for (int i = 0; i < 19; ++i) CHECK(resting.fluid().population(i, {8, 8, 8}) == computed.fluid().population(i, {8, 8, 8}));
+  // Water that was given a flow is not at rest, whatever was known before.
+  settings.skip_rest = true;
+  PrescribedGrains none({}, 1.6e-3 * Vec3::Ones(), {true, true, true}, step);
+  CoupledSimulation wave(settings, parts, Vec3::Zero(), none);
+  wave.step();
+  wave.fluid().set_equilibrium([](const lbm::Index3& cell) { return lbm::FluidPoint{1 + 1e-6 * cell[0], Vec3::Zero()}; });
+  wave.step();
+  CHECK(wave.rested_steps() == 1);
+}
+
 TEST_CASE("A fluid takes another operator and an eddy viscosity between two steps") {
   CoupledSettings settings = water();
   settings.substeps = 1;

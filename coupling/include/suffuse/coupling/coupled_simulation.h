@@ -117,6 +117,9 @@ class CoupledSimulation {
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 
+  /// Steps of the water's rest that were not computed (CoupledSettings::skip_rest).
+  long rested_steps() const { return rested_steps_; }
+
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
   CoupledTimes& times() { return times_; }
@@ -145,6 +148,10 @@ class CoupledSimulation {
  private:
   void place_spheres();
   void step_fluid(bool loads_wanted);
+  bool water_rests();
+  bool is_at_rest() const;
+  bool is_driven() const;
+  void rest(bool loads_wanted);
   void step_method();
   void hand_method_loads_over(const GrainArrays& grains);
   void hand_loads_over();
@@ -171,6 +178,9 @@ class CoupledSimulation {
   static constexpr long kNever = -1, kWhoeverIsThere = -2;
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
+  long rested_steps_ = 0;
+  long rested_at_ = kNever;  ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;  ///< it is never at rest again, to the last digit
   bool stepped_ = false;           ///< since this simulation began
   long loads_step_ = kNever;       ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;

@@ -49,6 +49,9 @@ struct CoupledSettings {
   lbm::FluidSettings fluid;  ///< its relaxation time is set from the units, its operator may follow effects
   SolidSettings solids;
   EffectSettings effects;
+  /// Steps of water that is at rest to the last digit, and that nothing moves, are not computed: they would
+  /// change nothing.
+  bool skip_rest = false;
   int substeps = 0;                       ///< DEM steps a fluid step; 0: from the DEM time step, as it is
   bool average_force = false;             ///< loads are the mean of the last two fluid steps'
   std::optional<double> virtual_mass;     ///< VirtualMassRule::coefficient
