@@ -40,8 +40,8 @@ double price_of(const std::string& name, const CoupledSimulation& simulation) {
   if (name == "comoving") without.collision_operator = lbm::CollisionOperator::trt;
   if (name == "turbulence") without.smagorinsky = 0;
   const lbm::Decomposition& parts = simulation.fluid().decomposition();
-  const double mine = collision_price(simulation.fluid().settings(), with, without,
-                                      trial_cells(parts.local_box().extents()));
+  const double mine =
+      collision_price(simulation.fluid().settings(), with, without, trial_cells(parts.local_box().extents()));
   return mean_of_ranks(mine, parts.communicator());
 }
 
@@ -96,7 +96,8 @@ std::vector<EffectReport::Row> EffectReport::rows(LAMMPS_NS::LAMMPS* lmp, const 
     } else if (name == "lubrication") {
       row.time_share = films;
     } else if (name == "turbulence" || name == "comoving") {
-      row.time_share = steps_on_[n] == 0 ? 0 : price_of(name, simulation) * *row.steps_share * seconds[0] / wall;
+      row.time_share =
+          steps_on_[n] == 0 ? 0 : price_of(name, simulation) * *row.steps_share * seconds[0] / wall;
       fluid -= *row.time_share;
     } else if (steps_on_[n] == 0) {
       row.time_share = 0;
@@ -125,7 +126,8 @@ std::string effect_report_file(const LbmSettings& settings) {
 }
 
 void write_effect_report(const std::string& file, const std::vector<EffectReport::Row>& rows,
-                         const CoupledSimulation& simulation, double wall, long steps, MPI_Comm communicator) {
+                         const CoupledSimulation& simulation, double wall, long steps,
+                         MPI_Comm communicator) {
   using nlohmann::ordered_json;
   ordered_json list = ordered_json::array();
   for (const EffectReport::Row& row : rows) {
@@ -150,7 +152,8 @@ void write_effect_report(const std::string& file, const std::vector<EffectReport
     if (!row.within.empty()) one["within"] = row.within;
     list.push_back(one);
   }
-  const ordered_json report{{"time_s", simulation.time_si()}, {"steps", steps}, {"wall_s", wall}, {"effects", list}};
+  const ordered_json report{
+      {"time_s", simulation.time_si()}, {"steps", steps}, {"wall_s", wall}, {"effects", list}};
   write_text(file, "lbm run", report.dump(1) + "\n", communicator);
 }
 

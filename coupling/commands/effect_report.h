@@ -37,8 +37,8 @@ class EffectReport {
   long rested_before_ = 0;      ///< steps of the water
 };
 
-/// Where the report of a scene belongs: effects.json in the folder of its first monitor or output; empty without
-/// either.
+/// Where the report of a scene belongs: effects.json in the folder of its first monitor or output; empty
+/// without either.
 std::string effect_report_file(const LbmSettings& settings);
 
 /// Replaces the file. Collective.

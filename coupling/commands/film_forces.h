@@ -18,8 +18,8 @@ class FilmForces {
  public:
   using Planes = std::vector<std::pair<int, double>>;  ///< axis, and coordinate in m
 
-  /// Adds or deletes the fix as `on` says, with films at no-slip faces and at `planes` in the water. LIGGGHTS must
-  /// be set up anew after a change (true). Collective.
+  /// Adds or deletes the fix as `on` says, with films at no-slip faces and at `planes` in the water. LIGGGHTS
+  /// must be set up anew after a change (true). Collective.
   bool follow(LAMMPS_NS::LAMMPS* lmp, bool on, double smallest_radius, const CoupledSimulation& simulation,
               const Planes& planes);
   /// Deletes the fix.
@@ -33,7 +33,7 @@ class FilmForces {
 
  private:
   void add(LAMMPS_NS::LAMMPS* lmp, double smallest_radius, const CoupledSimulation& simulation);
-  Planes planes_;        ///< that the fix was made with
+  Planes planes_;       ///< that the fix was made with
   double of_past_ = 0;  ///< s, of fixes that are gone
 };
 

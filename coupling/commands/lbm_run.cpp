@@ -110,8 +110,8 @@ void LbmRun::report_effects(double wall) {
   report_.count(effects_, steps);
   const std::string file = effect_report_file(settings_);
   if (file.empty()) return;
-  write_effect_report(file, report_.rows(lmp_, effects_, simulation_, wall), simulation_, wall, steps - first_,
-                      lmp_->world);
+  write_effect_report(file, report_.rows(lmp_, effects_, simulation_, wall), simulation_, wall,
+                      steps - first_, lmp_->world);
 }
 
 GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
@@ -263,7 +263,8 @@ std::optional<std::string> LbmRun::drag_note() const {
   const double speed = fastest_grain_ * units.spacing() / units.viscosity_si();
   const EffectState& comoving = effects_.state("comoving");
   if (simulation_.method() != nullptr || comoving.on || comoving.changes > 0) return std::nullopt;
-  if (speed < kFastGrains.limit || collision.collision_operator != lbm::CollisionOperator::trt) return std::nullopt;
+  if (speed < kFastGrains.limit || collision.collision_operator != lbm::CollisionOperator::trt)
+    return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "
       "water along so fast has too much drag (7 % at 5, 49 % at 30); `lbm collision trt_comoving` leaves "
@@ -326,7 +327,8 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
                     simulation_.units().time_to_si(made)));
   say(where_time_went);
   if (const long rested = simulation_.rested_steps() - rested_; rested > 0)
-    say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested, made));
+    say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested,
+                    made));
   if (const auto note = drag_note()) say(*note);
   if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
 }

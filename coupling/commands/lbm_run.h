@@ -64,7 +64,7 @@ class LbmRun {
   RunEffects& effects_;
   EffectReport report_;
   bool follow_variables_ = false;
-  long rested_ = 0;  ///< the water's steps of rest before the run
+  long rested_ = 0;            ///< the water's steps of rest before the run
   long first_ = 0, last_ = 0;  ///< fluid steps that the run begins after and ends with
   std::int64_t grains_ = 0;
   double start_ = 0;

@@ -59,7 +59,7 @@ struct LbmSettings {
   ScriptVector gravity, pressure_gradient;
   WallSettings walls;
   bool comoving_given = false;  ///< `lbm effect comoving`; else a line `collision` is the last word
-  double largest_mach = 0.3;  ///< the run stops above
+  double largest_mach = 0.3;    ///< the run stops above
   std::vector<MonitorRequest> monitors;
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;

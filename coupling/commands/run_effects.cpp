@@ -49,7 +49,8 @@ double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& 
   return fastest;
 }
 
-EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port, MPI_Comm communicator) {
+EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port,
+                            MPI_Comm communicator) {
   const LiggghtsPort::Summary grains = port.summary();
   EffectFacts facts;
   facts.given_speed = given_speed(settings.units, settings.fluid.faces);
@@ -82,6 +83,7 @@ EffectSettings RunEffects::start(const CoupledSettings& settings, LiggghtsPort& 
     for (const auto& [name, values] : load_references(state, communicator))
       if (name.starts_with(kMark)) record[name.substr(kMark.size())] = values;
     switches_->restore(record, "lbm restart read " + state);
+    restored_ = !record.empty();
   }
   // What follows from the script alone, and the rest where no state has it.
   (void)switches_->begin(facts_of_grains(settings, port, communicator), 0);
@@ -91,9 +93,10 @@ EffectSettings RunEffects::start(const CoupledSettings& settings, LiggghtsPort& 
 std::vector<std::string> RunEffects::begin(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
                                            CoupledSimulation& simulation, const FilmForces::Planes& planes) {
   planes_ = planes;
+  if (restored_) looked_at_ = simulation.fluid().steps();  // the run that saved it has looked
+  restored_ = false;
   const double water = simulation.units().velocity_to_si(simulation.extremes().largest_speed);
-  std::vector<std::string> lines =
-      switches_->begin(facts_now(port, simulation, water), simulation.time_si());
+  std::vector<std::string> lines = switches_->begin(facts_now(port, simulation, water), simulation.time_si());
   const EffectSettings effects = switches_->settings();
   simulation.set_effects(effects);
   films_.follow(lmp, effects.lubrication == Switch::on, port.summary().smallest_radius, simulation, planes_);
@@ -102,7 +105,9 @@ std::vector<std::string> RunEffects::begin(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort&
 
 std::vector<std::string> RunEffects::look(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
                                           CoupledSimulation& simulation, const lbm::FluidExtremes& extremes) {
-  if (simulation.fluid().steps() % kEffectsEvery != 0) return {};
+  const long step = simulation.fluid().steps();
+  if (step % kEffectsEvery != 0 || step == looked_at_) return {};
+  looked_at_ = step;
   const double water = simulation.units().velocity_to_si(extremes.largest_speed);
   std::vector<std::string> lines = switches_->look(facts_now(port, simulation, water), simulation.time_si());
   if (lines.empty()) return lines;

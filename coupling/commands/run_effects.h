@@ -18,7 +18,8 @@ namespace suffuse::coupling {
 /// Fastest flow that the script expects, m/s: given with the lattice, or at faces as they are now.
 double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& faces);
 
-/// What effects are decided by, but for the speeds of the water. `settings`: with faces and forces of now. Collective.
+/// What effects are decided by, but for the speeds of the water. `settings`: with faces and forces of now.
+/// Collective.
 EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port, MPI_Comm communicator);
 
 /// The effects of a scene while it runs: decided at its start, at the beginning of each `lbm run` and at
@@ -32,7 +33,8 @@ class RunEffects {
 
   /// Before there is a simulation; `state`: the saved one that is taken up, or empty. What the effects of
   /// `settings`, whose faces and forces are those of now, come to. Collective.
-  EffectSettings start(const CoupledSettings& settings, LiggghtsPort& port, MPI_Comm communicator, const std::string& state);
+  EffectSettings start(const CoupledSettings& settings, LiggghtsPort& port, MPI_Comm communicator,
+                       const std::string& state);
 
   /// At the beginning of an `lbm run`, before LIGGGHTS is set up. Returns lines about what has changed.
   /// Collective.
@@ -52,11 +54,15 @@ class RunEffects {
   double film_seconds(LAMMPS_NS::LAMMPS* lmp) const { return films_.seconds(lmp); }
 
  private:
-  EffectFacts facts_now(const LiggghtsPort& port, const CoupledSimulation& simulation, double water_speed) const;
+  EffectFacts facts_now(const LiggghtsPort& port, const CoupledSimulation& simulation,
+                        double water_speed) const;
 
   std::optional<EffectSwitches> switches_;
   FilmForces films_;
   FilmForces::Planes planes_;
+  bool restored_ = false;  ///< from a saved state, and not begun yet
+  long looked_at_ =
+      -1;  ///< step: faces that follow variables have other values at the same step of a new run
 };
 
 }  // namespace suffuse::coupling

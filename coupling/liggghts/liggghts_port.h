@@ -133,10 +133,10 @@ class LiggghtsPort final : public ParticlePort {
 
   /// This rank's own grains of the fix's group, as they are now, within a run or between two.
   struct OwnedGrain {
-    Vec3 position;      ///< m
-    double speed;       ///< m/s
-    double radius;      ///< m
-    double mass;        ///< kg, as LIGGGHTS moves it
+    Vec3 position;  ///< m
+    double speed;   ///< m/s
+    double radius;  ///< m
+    double mass;    ///< kg, as LIGGGHTS moves it
   };
   std::vector<OwnedGrain> owned() const;
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "suffuse/common/error.h"
-#include "suffuse/coupling/effects.h"
 #include "suffuse/coupling/automatic_coefficient.h"
+#include "suffuse/coupling/effects.h"
 
 namespace suffuse::coupling {
 
@@ -24,8 +24,8 @@ constexpr double kScatter = 1.5;
 constexpr double kShareOfTimeStep = 1. / 3;
 constexpr double kLargestMach = 0.2, kLargestRelaxationTime = 1;
 constexpr double kFloatFrom = 0.005, kLeastCellsAStep = 1e-4;
-/// Error of the drag of grains at 5 viscosities a cell, with TRT and with the operator that relaxes moments about
-/// the cell's own velocity.
+/// Error of the drag of grains at 5 viscosities a cell, with TRT and with the operator that relaxes moments
+/// about the cell's own velocity.
 constexpr double kMeasuredAt = 5, kErrorThere = 0.07, kComovingErrorThere = 0.03;
 
 double squared(double value) {

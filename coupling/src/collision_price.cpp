@@ -36,7 +36,8 @@ double collision_price(const lbm::FluidSettings& settings, const lbm::CollisionS
   constexpr double enough = 0.1;  // s
   double time_with = std::numeric_limits<double>::max(), time_without = time_with;
   const double start = MPI_Wtime();
-  for (int n = 0; n < least || (n < most && MPI_Wtime() - start < enough); ++n) {  // in turn: the same clock rate
+  for (int n = 0; n < least || (n < most && MPI_Wtime() - start < enough);
+       ++n) {  // in turn: the same clock rate
     time_with = std::min(time_with, seconds_of_two_steps(dear));
     time_without = std::min(time_without, seconds_of_two_steps(cheap));
   }

@@ -23,7 +23,8 @@ struct Speed {
 };
 
 Speed fastest_of(const EffectFacts& facts) {
-  Speed speed{facts.given_speed, facts.given_speed > 0 ? "given with the lattice or a face" : "nothing moves"};
+  Speed speed{facts.given_speed,
+              facts.given_speed > 0 ? "given with the lattice or a face" : "nothing moves"};
   if (facts.water_speed > speed.value) speed = {facts.water_speed, "fastest water"};
   if (facts.grain_speed > speed.value) speed = {facts.grain_speed, "fastest grain"};
   return speed;
@@ -55,9 +56,9 @@ EffectSwitches::EffectSwitches(const CoupledSettings& asked, const lbm::Units& u
       smagorinsky_(asked.effects.smagorinsky) {
   const EffectSettings& effects = asked.effects;
   const std::pair<const char*, Switch> all[] = {
-      {"motion", Switch::automatic},          {"rotation", effects.rotation},
-      {"buoyancy", effects.buoyancy},         {"added mass", Switch::automatic},
-      {"lubrication", effects.lubrication},   {"turbulence", effects.turbulence},
+      {"motion", Switch::automatic},        {"rotation", effects.rotation},
+      {"buoyancy", effects.buoyancy},       {"added mass", Switch::automatic},
+      {"lubrication", effects.lubrication}, {"turbulence", effects.turbulence},
       {"comoving", effects.comoving}};
   for (const auto& [name, asked_for] : all) {
     EffectState state;
@@ -114,13 +115,19 @@ void EffectSwitches::decide_scene(const EffectFacts& facts) {
     rotation.decide(rotation.asked != Switch::off, rotation.asked == Switch::off ? kAsked : "grains turn");
   EffectState& added = at("added mass");
   if (virtual_mass_)
-    added.decide(*virtual_mass_ > 0, fmt::format("{:g} times the displaced fluid's, as asked for", *virtual_mass_));
+    added.decide(*virtual_mass_ > 0,
+                 fmt::format("{:g} times the displaced fluid's, as asked for", *virtual_mass_));
   else if (!facts.grains_move)
     added.decide(false, kHeld);
   else if (averaged_)
     added.decide(true, "for grains that answer the water faster than a step");
   else
-    added.decide({{"C m_f/m", facts.virtual_mass, {kSafeResponse, kSafeResponse}, "largest of the grains", true, false}});
+    added.decide({{"C m_f/m",
+                   facts.virtual_mass,
+                   {kSafeResponse, kSafeResponse},
+                   "largest of the grains",
+                   true,
+                   false}});
 }
 
 void EffectSwitches::turbulence(const EffectFacts& facts) {
@@ -135,7 +142,8 @@ void EffectSwitches::turbulence(const EffectFacts& facts) {
 
 void EffectSwitches::comoving(const EffectFacts& facts) {
   EffectState& state = at("comoving");
-  if (operator_ == lbm::CollisionOperator::trt_comoving) return state.decide(true, "`lbm collision trt_comoving`");
+  if (operator_ == lbm::CollisionOperator::trt_comoving)
+    return state.decide(true, "`lbm collision trt_comoving`");
   if (operator_ != lbm::CollisionOperator::trt)
     return state.decide(false, fmt::format("`lbm collision {}`", name_of(operator_)));
   if (state.asked != Switch::automatic) return state.decide(state.asked == Switch::on, kAsked);
@@ -144,8 +152,12 @@ void EffectSwitches::comoving(const EffectFacts& facts) {
   const double most = largest_comoving_speed(units_.relaxation_time());
   state.decide({{"V dx/nu", facts.grain_speed * units_.spacing() / units_.viscosity_si(), kFastGrains,
                  "fastest grain", true, false},
-                {"cells a step", units_.velocity_to_lattice(fastest.value), {most, 0.8 * most},
-                 fastest.source + ", stability", false, false}});
+                {"cells a step",
+                 units_.velocity_to_lattice(fastest.value),
+                 {most, 0.8 * most},
+                 fastest.source + ", stability",
+                 false,
+                 false}});
 }
 
 void EffectSwitches::lubrication(const EffectFacts& facts) {
@@ -153,12 +165,14 @@ void EffectSwitches::lubrication(const EffectFacts& facts) {
   if (state.asked != Switch::automatic) return state.decide(state.asked == Switch::on, kAsked);
   if (!facts.grains_move) return state.decide(false, kHeld);
   const double fall = speed_of_fall(facts, units_);
-  Speed speed{std::max(facts.given_speed, fall), facts.given_speed > fall ? "given speed" : "fall of the largest grain"};
+  Speed speed{std::max(facts.given_speed, fall),
+              facts.given_speed > fall ? "given speed" : "fall of the largest grain"};
   if (facts.grain_speed > speed.value) speed = {facts.grain_speed, "fastest grain"};
   const double stokes = facts.largest_density / units_.density() * 2 * facts.largest_radius * speed.value /
                         (9 * units_.viscosity_si());
-  state.decide({{"Stokes number", stokes, kDryStokes, speed.source + ", as if dry", false, false},
-                {"solid fraction", facts.packing, kTouchingPacking, "grains that rest on each other", false, false}});
+  state.decide(
+      {{"Stokes number", stokes, kDryStokes, speed.source + ", as if dry", false, false},
+       {"solid fraction", facts.packing, kTouchingPacking, "grains that rest on each other", false, false}});
 }
 
 void EffectSwitches::decide_flow(const EffectFacts& facts) {
@@ -179,7 +193,8 @@ std::vector<std::string> EffectSwitches::changed_since(const std::vector<EffectS
     if (state.on == before[n].on) continue;
     state.changed_at = time;
     ++state.changes;
-    lines.push_back(fmt::format("{} {} from {:.6g} s: {}", state.name, state.on ? "on" : "off", time, state.text()));
+    lines.push_back(
+        fmt::format("{} {} from {:.6g} s: {}", state.name, state.on ? "on" : "off", time, state.text()));
   }
   return lines;
 }
@@ -208,7 +223,8 @@ std::map<std::string, std::vector<double>> EffectSwitches::record() const {
   return all;
 }
 
-void EffectSwitches::restore(const std::map<std::string, std::vector<double>>& record, const std::string& who) {
+void EffectSwitches::restore(const std::map<std::string, std::vector<double>>& record,
+                             const std::string& who) {
   for (EffectState& state : states_)
     if (const auto found = record.find(state.name); found != record.end()) state.restore(found->second, who);
   decided_ = !record.empty();

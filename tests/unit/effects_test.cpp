@@ -50,7 +50,8 @@ TEST_CASE("A number switches at its limit when it rises and at its release when 
   const struct {
     double value;
     bool above;
-  } course[] = {{4, false}, {9, false}, {10, false}, {10.1, true}, {9, true}, {5, true}, {4.9, false}, {9, false}};
+  } course[] = {{4, false}, {9, false}, {10, false},  {10.1, true},
+                {9, true},  {5, true},  {4.9, false}, {9, false}};
   for (const auto& [value, expected] : course) {
     above = bounds.is_above(above, value);
     CAPTURE(value);
@@ -99,7 +100,8 @@ TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and 
   CHECK(all.state("turbulence").number.source == "fastest grain");
   CHECK(all.state("turbulence").changed_at == 2);
   REQUIRE_FALSE(lines.empty());
-  CHECK_THAT(lines.front(), Catch::Contains("turbulence on from 2 s: u dx/nu = 12 (fastest grain), on above 10"));
+  CHECK_THAT(lines.front(),
+             Catch::Contains("turbulence on from 2 s: u dx/nu = 12 (fastest grain), on above 10"));
   now.grain_speed = 0;
   now.water_speed = 0.06;
   all.look(now, 3);
@@ -110,17 +112,21 @@ TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and 
   CHECK(all.state("turbulence").changes == 2);
 }
 
-TEST_CASE("The collision follows grains that are fast for the viscosity, unless it would be unstable or was named") {
+TEST_CASE(
+    "The collision follows grains that are fast for the viscosity, unless it would be unstable or was "
+    "named") {
   EffectFacts fast = bed();
-  fast.grain_speed = 0.025;  // V dx/nu = 2.5
+  fast.grain_speed = 0.025;                                 // V dx/nu = 2.5
   CHECK(chosen(fast, water(0.52)).comoving == Switch::on);  // 0.017 cells a step
   CoupledSettings thesis = water();
   thesis.fluid.collision.collision_operator = lbm::CollisionOperator::bgk;
   CHECK(chosen(fast, thesis).comoving == Switch::off);
   CHECK(switches(thesis).state("comoving").asked == Switch::automatic);
   thesis.effects.comoving = Switch::on;
-  CHECK_THROWS_WITH(switches(thesis), Catch::Contains("comoving = on") && Catch::Contains("lbm collision bgk"));
-  // 0.07 cells a step are too many at relaxation time 0.505, though not at 0.515 (docs/decisions/solid-operator.md).
+  CHECK_THROWS_WITH(switches(thesis),
+                    Catch::Contains("comoving = on") && Catch::Contains("lbm collision bgk"));
+  // 0.07 cells a step are too many at relaxation time 0.505, though not at 0.515
+  // (docs/decisions/solid-operator.md).
   for (const auto& [tau, expected] : {std::pair{0.505, Switch::off}, std::pair{0.515, Switch::on}}) {
     const CoupledSettings thin = water(tau);
     EffectFacts faster = bed();
@@ -195,7 +201,9 @@ TEST_CASE("Water at rest that nothing moves costs no step, and flows as ever onc
   PrescribedGrains::Grain grain;
   grain.position = 0.8e-3 * Vec3::Ones();
   grain.radius = 0.35e-3;
-  const auto held = [&] { return PrescribedGrains({grain}, 1.6e-3 * Vec3::Ones(), {true, true, true}, step); };
+  const auto held = [&] {
+    return PrescribedGrains({grain}, 1.6e-3 * Vec3::Ones(), {true, true, true}, step);
+  };
   PrescribedGrains resting_grains = held(), computed_grains = held();
   const auto parts = lbm::Decomposition::balanced(MPI_COMM_WORLD, {16, 16, 16});
   settings.skip_rest = true;
@@ -219,13 +227,16 @@ TEST_CASE("Water at rest that nothing moves costs no step, and flows as ever onc
   CHECK(resting.rested_steps() == 3);
   CHECK(resting_grains.memory().load[0] < 0);
   for (int a = 0; a < 6; ++a) CHECK(resting_grains.memory().load[a] == computed_grains.memory().load[a]);
-  for (int i = 0; i < 19; ++i) CHECK(resting.fluid().population(i, {8, 8, 8}) == computed.fluid().population(i, {8, 8, 8}));
+  for (int i = 0; i < 19; ++i)
+    CHECK(resting.fluid().population(i, {8, 8, 8}) == computed.fluid().population(i, {8, 8, 8}));
   // Water that was given a flow is not at rest, whatever was known before.
   settings.skip_rest = true;
   PrescribedGrains none({}, 1.6e-3 * Vec3::Ones(), {true, true, true}, step);
   CoupledSimulation wave(settings, parts, Vec3::Zero(), none);
   wave.step();
-  wave.fluid().set_equilibrium([](const lbm::Index3& cell) { return lbm::FluidPoint{1 + 1e-6 * cell[0], Vec3::Zero()}; });
+  wave.fluid().set_equilibrium([](const lbm::Index3& cell) {
+    return lbm::FluidPoint{1 + 1e-6 * cell[0], Vec3::Zero()};
+  });
   wave.step();
   CHECK(wave.rested_steps() == 1);
 }
@@ -233,7 +244,8 @@ TEST_CASE("Water at rest that nothing moves costs no step, and flows as ever onc
 TEST_CASE("A fluid takes another operator and an eddy viscosity between two steps") {
   CoupledSettings settings = water();
   settings.substeps = 1;
-  PrescribedGrains grains({}, 1e-3 * Vec3::Ones(), {true, true, true}, lbm::Units(settings.units).time_step());
+  PrescribedGrains grains({}, 1e-3 * Vec3::Ones(), {true, true, true},
+                          lbm::Units(settings.units).time_step());
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {10, 10, 10}),
                                Vec3::Zero(), grains);
   const auto& collision = simulation.fluid().settings().collision;

@@ -135,8 +135,8 @@ class CoupledSimulation {
   /// wall that they touch. Collective.
   long grains_behind_walls() const;
 
-  /// What effects have come to, from the next step on: operator and eddy viscosity of the collision, buoyancy,
-  /// torque. At first those of the settings.
+  /// What effects have come to, from the next step on: operator and eddy viscosity of the collision,
+  /// buoyancy, torque. At first those of the settings.
   void set_effects(const EffectSettings& effects);
   const EffectSettings& effects() const { return effects_; }
 
@@ -179,10 +179,10 @@ class CoupledSimulation {
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
   long rested_steps_ = 0;
-  long rested_at_ = kNever;  ///< step after which the water is known to be at rest
-  bool has_flowed_ = false;  ///< it is never at rest again, to the last digit
-  bool stepped_ = false;           ///< since this simulation began
-  long loads_step_ = kNever;       ///< fluid step of the loads in the port's memory
+  long rested_at_ = kNever;   ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;   ///< it is never at rest again, to the last digit
+  bool stepped_ = false;      ///< since this simulation began
+  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;
   std::string acting_walls_;

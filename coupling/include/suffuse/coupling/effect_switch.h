@@ -15,9 +15,7 @@ struct Hysteresis {
 
   /// Is `value` above, after a look at which it was (`was_above`), or was not? Not a number counts as no
   /// change.
-  bool is_above(bool was_above, double value) const {
-    return was_above ? !(value < release) : value > limit;
-  }
+  bool is_above(bool was_above, double value) const { return was_above ? !(value < release) : value > limit; }
 };
 
 /// One number that an effect was decided by.
@@ -36,9 +34,9 @@ struct EffectState {
   std::string name;
   Switch asked = Switch::automatic;
   bool on = false;
-  EffectNumber number;        ///< that decided; with an empty name `reason` says why
-  std::string reason;         ///< in words, where no number decides
-  std::vector<bool> above;    ///< memory of the numbers that decide together, in their order
+  EffectNumber number;                      ///< that decided; with an empty name `reason` says why
+  std::string reason;                       ///< in words, where no number decides
+  std::vector<bool> above;                  ///< memory of the numbers that decide together, in their order
   double changed_at = EffectNumber::kNone;  ///< s, the last change during the run; not a number: never
   int changes = 0;
 

@@ -27,8 +27,8 @@ struct EffectFacts {
 /// at most u/dx) would be less than a tenth of the water's own.
 inline constexpr Hysteresis kGridReynolds{10, 5};
 
-/// Speed of grains in viscosities a cell, V dx/nu, from which on the drag of a bed that carries its water is 2 %
-/// too large with `trt` (docs/decisions/solid-operator.md).
+/// Speed of grains in viscosities a cell, V dx/nu, from which on the drag of a bed that carries its water is
+/// 2 % too large with `trt` (docs/decisions/solid-operator.md).
 inline constexpr Hysteresis kFastGrains{2, 1};
 
 /// Stokes number (1/9)(rho_s/rho_f) d u/nu from which on spheres rebound in a liquid as if they were dry
@@ -36,8 +36,8 @@ inline constexpr Hysteresis kFastGrains{2, 1};
 /// through films (that of the densest suspensions that flow as liquids).
 inline constexpr Hysteresis kDryStokes{1000, 500}, kTouchingPacking{0.5, 0.45};
 
-/// Largest speed, cells a step, at which a uniform stream is linearly stable with `trt_comoving` along an axis
-/// (docs/decisions/solid-operator.md).
+/// Largest speed, cells a step, at which a uniform stream is linearly stable with `trt_comoving` along an
+/// axis (docs/decisions/solid-operator.md).
 double largest_comoving_speed(double relaxation_time);
 
 /// The effects of a scene: what the script asked for, what it came to, and why. Free of LIGGGHTS and MPI: the
