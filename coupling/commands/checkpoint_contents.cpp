@@ -45,31 +45,38 @@ std::string coefficient_text(const SolidSettings& solids) {
 }
 
 std::string switch_text(Switch value) {
+  if (value == Switch::automatic) return "auto";
   return value == Switch::off ? "off" : "on";
+}
+
+std::string turbulence_text(const EffectSettings& effects) {
+  const std::string asked = switch_text(effects.turbulence);
+  return effects.turbulence == Switch::off ? asked : asked + " " + number(effects.smagorinsky);
 }
 
 std::vector<Setting> settings_of(const CoupledSimulation& simulation) {
   const lbm::Units& units = simulation.units();
-  const lbm::CollisionSettings& collision = simulation.fluid().settings().collision;
+  const CoupledSettings& asked = simulation.settings();
+  const lbm::CollisionSettings collision = asked.averaged ? lbm::CollisionSettings{} : asked.fluid.collision;
   const SolidSettings& solids = simulation.settings().solids;
-  const EffectSettings& effects = simulation.settings().effects;
+  const EffectSettings& effects = asked.effects;
   const bool two_times = lbm::has_magic(collision.collision_operator);
-  std::vector<Setting> settings{
-      {"fluid", "density", number(units.density())},
-      {"fluid", "viscosity", number(units.viscosity_si())},
-      {"lattice", "spacing", number(units.spacing())},
-      {"lattice", "relaxation_time", number(units.relaxation_time())},
-      {"collision", "operator", name_of(collision.collision_operator)},
-      {"collision", "magic", two_times ? number(collision.magic) : "none"},
-      {"collision", "incompressible", collision.incompressible ? "yes" : "no"},
-      {"solid", "operator", name_of(solids.cells.solid_operator)},
-      {"solid", "weighting", name_of(solids.cells.weighting)},
-      {"solid", "coefficient", coefficient_text(solids)},
-      {"solid", "fraction", fraction_text(solids)},
-      {"effect", "turbulence", collision.smagorinsky > 0 ? "on " + number(collision.smagorinsky) : "off"},
-      {"effect", "lubrication", switch_text(effects.lubrication)},
-      {"effect", "buoyancy", switch_text(effects.buoyancy)},
-      {"effect", "rotation", switch_text(effects.rotation)}};
+  std::vector<Setting> settings{{"fluid", "density", number(units.density())},
+                                {"fluid", "viscosity", number(units.viscosity_si())},
+                                {"lattice", "spacing", number(units.spacing())},
+                                {"lattice", "relaxation_time", number(units.relaxation_time())},
+                                {"collision", "operator", name_of(collision.collision_operator)},
+                                {"collision", "magic", two_times ? number(collision.magic) : "none"},
+                                {"collision", "incompressible", collision.incompressible ? "yes" : "no"},
+                                {"solid", "operator", name_of(solids.cells.solid_operator)},
+                                {"solid", "weighting", name_of(solids.cells.weighting)},
+                                {"solid", "coefficient", coefficient_text(solids)},
+                                {"solid", "fraction", fraction_text(solids)},
+                                {"effect", "turbulence", turbulence_text(effects)},
+                                {"effect", "comoving", switch_text(effects.comoving)},
+                                {"effect", "lubrication", switch_text(effects.lubrication)},
+                                {"effect", "buoyancy", switch_text(effects.buoyancy)},
+                                {"effect", "rotation", switch_text(effects.rotation)}};
   for (int a = 0; a < 3; ++a)
     settings.push_back({"lattice", fmt::format("low corner along {}", "xyz"[a]),
                         fmt::format("{:.6g} cells", simulation.origin()[a] / units.spacing())});

@@ -20,7 +20,6 @@
 #include "modify.h"
 #include "register_styles.h"
 #include "saved_set.h"
-#include "styles/fix_lubrication.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
@@ -32,8 +31,6 @@ namespace suffuse::coupling {
 
 namespace {
 
-constexpr const char* kLubricationFix = "suffuse_lubrication";
-
 using Instances = std::map<LAMMPS_NS::LAMMPS*, std::unique_ptr<LbmCommand>>;
 Instances& instances() {
   static Instances all;
@@ -44,24 +41,6 @@ void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   auto& instance = instances()[lmp];
   if (instance == nullptr) instance = std::make_unique<LbmCommand>(lmp);
   instance->line(narg, arg);
-}
-
-/// The averaged flow knows drag and pressure only. A UserError if more was asked for.
-void without_resolved_effects(const EffectSettings& asked, EffectSettings& effects,
-                              std::vector<EffectChoice>& choices) {
-  const std::map<std::string, std::pair<Switch, Switch*>> unknown{
-      {"turbulence", {asked.turbulence, &effects.turbulence}},
-      {"lubrication", {asked.lubrication, &effects.lubrication}},
-      {"rotation", {Switch::automatic, &effects.rotation}}};
-  for (EffectChoice& choice : choices) {
-    const auto found = unknown.find(choice.name);
-    if (found == unknown.end()) continue;
-    if (found->second.first == Switch::on)
-      throw_user_error({"lbm effect", choice.name, "on", "be off or auto with `lbm method averaged`",
-                        "only the resolved flow has it"});
-    *found->second.second = Switch::off;
-    choice = {choice.name, false, "the averaged flow has none"};
-  }
 }
 
 /// Closures are means over several grains.
@@ -142,9 +121,9 @@ void LbmCommand::line(int narg, char** arg) {
   } else if (word == "clear") {
     simulation_.reset();
     port_.reset();
-    if (lmp_->modify->find_fix(kLubricationFix) >= 0) lmp_->modify->delete_fix(kLubricationFix);
+    effects_.withdraw(lmp_);
+    effects_ = {};
     settings_ = {};
-    effects_.clear();
     output_ = {};
     state_to_read_.clear();
     continued_at_.reset();
@@ -215,30 +194,14 @@ void LbmCommand::refuse_double_buoyancy() const {
            "unfix it, or write `lbm effect buoyancy off`"});
 }
 
-/// Everything that `auto` leaves open is decided here, from the grains as they are now.
-CoupledSettings LbmCommand::resolved_settings(std::vector<EffectChoice>& effects) {
+/// With values of now; everything that `auto` leaves open is still open.
+CoupledSettings LbmCommand::settings_now() const {
   const lbm::Units units(settings_.coupled.units);
-  const LiggghtsPort::Summary grains = port_->summary();
   CoupledSettings coupled = settings_.coupled;
   coupled.fluid.faces = faces_now(settings_, units, lmp_);
   coupled.gravity = gravity_now(settings_, units, lmp_);
   coupled.pressure_gradient = pressure_gradient_now(settings_, units, lmp_);
-  SceneFacts facts;
-  facts.fastest_flow = coupled.units.largest_velocity.value_or(0);
-  for (const lbm::FaceCondition& face : coupled.fluid.faces)
-    if (face.kind == lbm::FaceKind::velocity)
-      facts.fastest_flow = std::max(facts.fastest_flow, units.velocity_to_si(face.velocity).norm());
-  facts.largest_radius = grains.largest_radius;
-  facts.largest_density = grains.largest_density;
-  facts.packing = grains.packing;
-  facts.gravity = settings_.gravity.is_zero() ? 0 : std::max(coupled.gravity.norm(), 1e-300);
-  facts.grains_move = grains.grains > 0 && port_->anything_moves();
-  effects = choose_effects(coupled.effects, facts, units);
-  if (coupled.averaged) {
-    without_resolved_effects(settings_.coupled.effects, coupled.effects, effects);
-    require_cells_of_grains(units.spacing(), grains);
-  }
-  if (coupled.effects.turbulence == Switch::on) coupled.fluid.collision.smagorinsky = settings_.smagorinsky;
+  if (coupled.averaged) require_cells_of_grains(units.spacing(), port_->summary());
   return coupled;
 }
 
@@ -251,7 +214,9 @@ lbm::Decomposition LbmCommand::decomposition(Vec3& low) {
 }
 
 void LbmCommand::build() {
-  CoupledSettings coupled = resolved_settings(effects_);
+  CoupledSettings coupled = settings_now();
+  coupled.skip_rest = true;
+  const EffectSettings effects = effects_.start(coupled, *port_, lmp_->world, state_to_read_);
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
@@ -259,8 +224,8 @@ void LbmCommand::build() {
   if (const std::string note = unused_words_note(settings_); !note.empty()) tell(lmp_, note);
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
   require_walls(lmp_, settings_.walls.open);
+  simulation_->set_effects(effects);
   walls_.follow(lmp_, settings_.walls, *port_, *simulation_, state_to_read_);
-  if (simulation_->settings().effects.lubrication == Switch::on) add_lubrication(*simulation_);
   if (!state_to_read_.empty()) read_state();
 }
 
@@ -298,33 +263,6 @@ void LbmCommand::warn_about_held_grains() {
            "water along; where that is not meant, write `velocity GROUP set 0 0 0` and `set group "
            "GROUP omegax 0 omegay 0 omegaz 0` (docs/reference/lbm.md#run)\n",
            count_text(held.grains, "grain"), held.grains == 1 ? "has" : "have", held.speed));
-}
-
-/// Films between grains as LIGGGHTS's business (docs/reference/fix_lubrication.md), unless the script has a
-/// fix of its own. The lattice resolves what is wider than two thirds of a cell; films end at the grains'
-/// roughness, a thousandth of the smallest radius.
-void LbmCommand::add_lubrication(const CoupledSimulation& simulation) {
-  for (int i = 0; i < lmp_->modify->nfix; ++i)
-    if (std::string(lmp_->modify->fix[i]->style) == "lubrication") return;
-  const lbm::Units& units = simulation.units();
-  lubrication::Film film;
-  film.viscosity = units.density() * units.viscosity_si();
-  film.outer = 2. / 3 * units.spacing();
-  film.inner = 1e-3 * port_->summary().smallest_radius;
-  const int every = std::max(1, simulation.substeps() / 2);
-  std::vector<LAMMPS_NS::FixLubrication::Plane> walls;
-  const Vec3 size = units.spacing() * Vec3(simulation.fluid().decomposition().cells()[0],
-                                           simulation.fluid().decomposition().cells()[1],
-                                           simulation.fluid().decomposition().cells()[2]);
-  for (int f = 0; f < lbm::kFaces; ++f)
-    if (simulation.fluid().settings().faces[static_cast<std::size_t>(f)].kind == lbm::FaceKind::no_slip)
-      walls.push_back({f / 2, simulation.origin()[f / 2] + (f % 2 == 1 ? size[f / 2] : 0)});
-  for (const auto& [axis, position] : walls_.planes()) walls.push_back({axis, position});
-  std::vector<std::string> words =
-      LAMMPS_NS::FixLubrication::words(kLubricationFix, "all", film, every, walls);
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  lmp_->modify->add_fix(static_cast<int>(arguments.size()), arguments.data());
 }
 
 /// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many
@@ -368,8 +306,8 @@ void LbmCommand::plan(ArgumentReader& reader) {
   const double time = reader.positive("time");
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
-  std::vector<EffectChoice> effects;
-  CoupledSettings coupled = resolved_settings(effects);
+  CoupledSettings coupled = settings_now();
+  coupled.effects = RunEffects().start(coupled, *port_, lmp_->world, "");
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
@@ -407,13 +345,12 @@ void LbmCommand::run(ArgumentReader& reader) {
     build();
   } else {
     port_->check_unchanged();
-    port_->check_box(faces_now(settings_, simulation_->units(), lmp_));
+    const CoupledSettings now = settings_now();
+    port_->check_box(now.fluid.faces);
     simulation_->set_substeps(choose_substeps());
-    const bool new_walls = walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
-    if (new_walls && lmp_->modify->find_fix(kLubricationFix) >= 0) {  // films at planes
-      lmp_->modify->delete_fix(kLubricationFix);
-      add_lubrication(*simulation_);
-    }
+    simulation_->set_faces(now.fluid.faces);
+    simulation_->set_gravity(now.gravity);
+    (void)walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
   }
   if (until) {
     request.time -= simulation_->time_si();
@@ -426,7 +363,9 @@ void LbmCommand::run(ArgumentReader& reader) {
   }
   warn_about_held_grains();
   request.walls = walls_.lines();
-  LbmRun(lmp_, settings_, *port_, *simulation_, output_).run(request, effects_, continued_at_);
+  for (const std::string& line : effects_.begin(lmp_, *port_, *simulation_, walls_.planes()))
+    tell(lmp_, "lbm run: " + line + "\n");
+  LbmRun(lmp_, settings_, *port_, *simulation_, output_, effects_).run(request, continued_at_);
 }
 
 }  // namespace suffuse::coupling

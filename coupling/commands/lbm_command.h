@@ -7,9 +7,9 @@
 
 #include "../liggghts/liggghts_port.h"
 #include "lbm_settings.h"
+#include "run_effects.h"
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
-#include "suffuse/coupling/effects.h"
 #include "water_walls.h"
 
 namespace suffuse::coupling {
@@ -37,19 +37,18 @@ class LbmCommand {
   void require_lattice(const std::string& who) const;
   void require_box(const std::string& who) const;
   void refuse_double_buoyancy() const;
-  CoupledSettings resolved_settings(std::vector<EffectChoice>& effects);
+  CoupledSettings settings_now() const;
   lbm::Decomposition decomposition(Vec3& low);
   void build();
   void read_state();
   void warn_about_held_grains();
-  void add_lubrication(const CoupledSimulation& simulation);
   int choose_substeps();
 
   LAMMPS_NS::LAMMPS* lmp_;
   LbmSettings settings_;
   std::unique_ptr<LiggghtsPort> port_;
   std::unique_ptr<CoupledSimulation> simulation_;
-  std::vector<EffectChoice> effects_;
+  RunEffects effects_;
   WaterWalls walls_;
   RunOutput output_;
   std::string state_to_read_;

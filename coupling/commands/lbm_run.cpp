@@ -26,10 +26,6 @@ namespace {
 /// and more often once a flow is near its limit.
 constexpr long kCheckEvery = 250, kCheckNearLimitEvery = 50;
 
-/// Grains faster than this many viscosities a cell have a drag that is some 2 % too large in beds that carry
-/// their water (docs/decisions/solid-operator.md).
-constexpr double kFastGrains = 2;
-
 /// Share of the grains' volume that may lie in other grains: contacts of the softest grains that are of use
 /// stay well below.
 constexpr double kLargestOverlap = 0.02;
@@ -40,12 +36,13 @@ constexpr double kSameGravity = 2e-3;
 }  // namespace
 
 LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-               CoupledSimulation& simulation, RunOutput& output)
+               CoupledSimulation& simulation, RunOutput& output, RunEffects& effects)
     : lmp_(lmp),
       settings_(settings),
       port_(port),
       simulation_(simulation),
       output_(output),
+      effects_(effects),
       guards_(settings.guards, simulation),
       census_(lmp) {
   guards_.set_warned(output.warned());
@@ -93,9 +90,28 @@ void LbmRun::check(long step) {
   near_limit_ = resolved && lbm::mach_of(extremes_) > kWarnShare * settings_.largest_mach;
   const std::vector<std::string> warnings = guards_.look(now);
   for (const std::string& line : warnings) say(line);
+  follow_effects();
   if (warnings.empty()) return;
   output_.set_warned(guards_.warned());
   if (step > first_) (void)output_.save(lmp_, port_, simulation_);  // while the state is still good
+}
+
+/// After the guards: nothing is decided by a flow that is lost.
+void LbmRun::follow_effects() {
+  report_.count(effects_, simulation_.fluid().steps());
+  for (const std::string& line : effects_.look(lmp_, port_, simulation_, extremes_)) say("lbm run: " + line);
+  MonitorReferences record;
+  effects_.add_to(record);
+  output_.set_effects(std::move(record));
+}
+
+void LbmRun::report_effects(double wall) {
+  const long steps = simulation_.fluid().steps();
+  report_.count(effects_, steps);
+  const std::string file = effect_report_file(settings_);
+  if (file.empty()) return;
+  write_effect_report(file, report_.rows(lmp_, effects_, simulation_, wall), simulation_, wall,
+                      steps - first_, lmp_->world);
 }
 
 GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
@@ -143,8 +159,7 @@ bool LbmRun::is_steady(double share) {
 }
 
 /// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
-void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
-                   std::optional<double> continue_after) {
+void LbmRun::begin(const RunRequest& request, std::optional<double> continue_after) {
   const lbm::Units& units = simulation_.units();
   const long steps = units.steps_in(request.time);
   if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
@@ -165,7 +180,7 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   const LiggghtsPort::Summary grains = port_.summary();
   grains_ = grains.grains;
   solid_volume_ = grains.solid_volume;
-  for (const std::string& line : manifest(simulation_, grains, effects, request.walls))
+  for (const std::string& line : manifest(simulation_, grains, effects_.states(), request.walls))
     say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
   simulation_.map();
@@ -175,6 +190,8 @@ void LbmRun::begin(const RunRequest& request, const std::vector<EffectChoice>& e
   follow_variables_ = values_change(settings_);
   first_ = simulation_.fluid().steps();
   last_ = first_ + steps;
+  report_.begin(lmp_, effects_, simulation_);
+  rested_ = simulation_.rested_steps();
   start_ = MPI_Wtime();
   check(first_);
   output_.write(lmp_, port_, simulation_);
@@ -230,9 +247,8 @@ int LbmRun::stop_here() const {
   return SignalWatch::received();
 }
 
-std::string LbmRun::table() {
+std::string LbmRun::table(double wall) {
   const long made = simulation_.fluid().steps() - first_;
-  const double wall = MPI_Wtime() - start_;
   const double grain_steps = port_.anything_moves() ? static_cast<double>(made) * simulation_.substeps() *
                                                           static_cast<double>(grains_)
                                                     : 0;
@@ -245,8 +261,10 @@ std::optional<std::string> LbmRun::drag_note() const {
   const lbm::CollisionSettings& collision = simulation_.fluid().settings().collision;
   const lbm::Units& units = simulation_.units();
   const double speed = fastest_grain_ * units.spacing() / units.viscosity_si();
-  if (simulation_.method() != nullptr) return std::nullopt;
-  if (speed < kFastGrains || collision.collision_operator != lbm::CollisionOperator::trt) return std::nullopt;
+  const EffectState& comoving = effects_.state("comoving");
+  if (simulation_.method() != nullptr || comoving.on || comoving.changes > 0) return std::nullopt;
+  if (speed < kFastGrains.limit || collision.collision_operator != lbm::CollisionOperator::trt)
+    return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "
       "water along so fast has too much drag (7 % at 5, 49 % at 30); `lbm collision trt_comoving` leaves "
@@ -258,7 +276,7 @@ std::optional<std::string> LbmRun::drag_note() const {
 /// would be counted twice.
 std::optional<std::string> LbmRun::weight_note() const {
   const Vec3& water = simulation_.settings().gravity;
-  if (water.isZero() || simulation_.settings().effects.buoyancy == Switch::off || !port_.anything_moves())
+  if (water.isZero() || simulation_.effects().buoyancy == Switch::off || !port_.anything_moves())
     return std::nullopt;
   const auto grains = port_.gravity_on_grains();
   if (!grains || grains->isZero() || (*grains - water).norm() < kSameGravity * water.norm())
@@ -272,13 +290,12 @@ std::optional<std::string> LbmRun::weight_note() const {
       grains->norm(), water.norm());
 }
 
-void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-                 std::optional<double> continue_after) {
+void LbmRun::run(const RunRequest& request, std::optional<double> continue_after) {
   // A second SIGINT acts as usual: whoever waits at a terminal can end the program at once. SIGUSR1 is what
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
-  begin(request, effects, continue_after);
+  begin(request, continue_after);
   const double steps = static_cast<double>(last_ - first_);
   ProgressLine progress(lmp_->comm->me == 0);
   bool is_last = false, steady = false;
@@ -302,11 +319,16 @@ void LbmRun::run(const RunRequest& request, const std::vector<EffectChoice>& eff
   port_.set_fluid_time(simulation_.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
   census_.tell_lost();
-  const std::string where_time_went = table();
+  const double wall = MPI_Wtime() - start_;
+  report_effects(wall);
+  const std::string where_time_went = table(wall);
   if (request.steady)
     say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
                     simulation_.units().time_to_si(made)));
   say(where_time_went);
+  if (const long rested = simulation_.rested_steps() - rested_; rested > 0)
+    say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested,
+                    made));
   if (const auto note = drag_note()) say(*note);
   if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
 }

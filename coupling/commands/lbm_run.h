@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
+#include "effect_report.h"
 #include "lbm_settings.h"
+#include "run_effects.h"
 #include "run_guards.h"
 #include "run_output.h"
 #include "styles/scene_checks.h"
 #include "suffuse/coupling/coupled_simulation.h"
-#include "suffuse/coupling/effects.h"
 
 namespace suffuse::coupling {
 
@@ -28,16 +29,14 @@ struct RunRequest {
 class LbmRun {
  public:
   LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-         CoupledSimulation& simulation, RunOutput& output);
+         CoupledSimulation& simulation, RunOutput& output, RunEffects& effects);
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
-  void run(const RunRequest& request, const std::vector<EffectChoice>& effects,
-           std::optional<double> continue_after);
+  void run(const RunRequest& request, std::optional<double> continue_after);
 
  private:
-  void begin(const RunRequest& request, const std::vector<EffectChoice>& effects,
-             std::optional<double> continue_after);
+  void begin(const RunRequest& request, std::optional<double> continue_after);
   void advance(long step, bool is_last);
   bool look(long step, const RunRequest& request);
   std::string interruption_text(int signal);
@@ -46,12 +45,14 @@ class LbmRun {
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
   void check(long step);
+  void follow_effects();
+  void report_effects(double wall);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
   bool is_closed_for_water() const;
   std::string with_last_state(const std::string& reason) const;
   bool is_steady(double share);
   std::string details() const;
-  std::string table();
+  std::string table(double wall);
   std::optional<std::string> drag_note() const;
   std::optional<std::string> weight_note() const;
 
@@ -60,7 +61,10 @@ class LbmRun {
   LiggghtsPort& port_;
   CoupledSimulation& simulation_;
   RunOutput& output_;
+  RunEffects& effects_;
+  EffectReport report_;
   bool follow_variables_ = false;
+  long rested_ = 0;            ///< the water's steps of rest before the run
   long first_ = 0, last_ = 0;  ///< fluid steps that the run begins after and ends with
   std::int64_t grains_ = 0;
   double start_ = 0;

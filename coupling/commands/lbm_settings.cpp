@@ -59,6 +59,7 @@ void read_preset(ArgumentReader& reader, LbmSettings& settings) {
   coupled.fluid.collision = standard.fluid.collision;
   coupled.solids = standard.solids;
   coupled.effects = standard.effects;
+  settings.comoving_given = false;
   coupled.average_force = standard.average_force;
   coupled.virtual_mass = standard.virtual_mass;
   if (preset == Preset::standard) return;
@@ -211,6 +212,7 @@ void read_collision(ArgumentReader& reader, LbmSettings& settings) {
       reader.unknown(reader.word("keyword"), "magic, incompressible");
   }
   settings.coupled.fluid.collision = collision;
+  if (!settings.comoving_given) settings.coupled.effects.comoving = Switch::off;  // as this line says
 }
 
 void read_solid(ArgumentReader& reader, LbmSettings& settings) {
@@ -264,11 +266,14 @@ void read_solid(ArgumentReader& reader, LbmSettings& settings) {
 
 void read_effect(ArgumentReader& reader, LbmSettings& settings) {
   EffectSettings effects = settings.coupled.effects;
-  double smagorinsky = settings.smagorinsky;
+  bool comoving_given = settings.comoving_given;
   while (!reader.done()) {
     if (reader.keyword("turbulence")) {
       effects.turbulence = choose<Switch>(reader, "turbulence", kSwitch);
-      if (reader.next_is_number()) smagorinsky = reader.positive("Smagorinsky constant");
+      if (reader.next_is_number()) effects.smagorinsky = reader.positive("Smagorinsky constant");
+    } else if (reader.keyword("comoving")) {
+      effects.comoving = choose<Switch>(reader, "comoving", kSwitch);
+      comoving_given = true;
     } else if (reader.keyword("lubrication")) {
       effects.lubrication = choose<Switch>(reader, "lubrication", kSwitch);
     } else if (reader.keyword("buoyancy")) {
@@ -276,11 +281,11 @@ void read_effect(ArgumentReader& reader, LbmSettings& settings) {
     } else if (reader.keyword("rotation")) {
       effects.rotation = choose<Switch>(reader, "rotation", kSwitch);
     } else {
-      reader.unknown(reader.word("keyword"), "turbulence, lubrication, buoyancy, rotation");
+      reader.unknown(reader.word("keyword"), "turbulence, comoving, lubrication, buoyancy, rotation");
     }
   }
   settings.coupled.effects = effects;
-  settings.smagorinsky = smagorinsky;
+  settings.comoving_given = comoving_given;
 }
 
 void read_couple(ArgumentReader& reader, LbmSettings& settings) {

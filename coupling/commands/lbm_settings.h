@@ -58,8 +58,8 @@ struct LbmSettings {
   std::array<ScriptFace, lbm::kFaces> faces;
   ScriptVector gravity, pressure_gradient;
   WallSettings walls;
-  double smagorinsky = 0.1;   ///< constant of the eddy viscosity where turbulence is on
-  double largest_mach = 0.3;  ///< the run stops above
+  bool comoving_given = false;  ///< `lbm effect comoving`; else a line `collision` is the last word
+  double largest_mach = 0.3;    ///< the run stops above
   std::vector<MonitorRequest> monitors;
   std::vector<OutputRequest> outputs;
   std::optional<CheckpointRequest> checkpoint;

@@ -102,7 +102,7 @@ std::string collision_note(const CoupledSimulation& simulation, const LiggghtsPo
 }  // namespace
 
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
-                                  const std::vector<EffectChoice>& effects,
+                                  const std::vector<EffectState>& effects,
                                   const std::vector<std::string>& walls) {
   const lbm::Fluid& fluid = simulation.fluid();
   const lbm::Units& units = simulation.units();
@@ -133,8 +133,8 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
                               count_text(simulation.substeps(), "DEM step"),
                               units.time_step() / simulation.substeps(),
                               simulation.settings().average_force ? ", mean force of two steps" : ""));
-  for (const EffectChoice& effect : effects)
-    lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.reason));
+  for (const EffectState& effect : effects)
+    lines.push_back(fmt::format("{:<12}{:<4}{}", effect.name, effect.on ? "on" : "off", effect.text()));
   if (const std::string note = resolution_note(grains, units.spacing()); method == nullptr && !note.empty())
     lines.push_back("note: " + note + " (docs/performance_coupled.md#what-accuracy-costs)");
   if (const std::string note = collision_note(simulation, grains); method == nullptr && !note.empty())

@@ -13,7 +13,7 @@ namespace suffuse::coupling {
 /// What a run is going to do, before it starts: lattice, solids, grains, effects with their reasons, and what
 /// may cost accuracy. One line each; those about walls are given.
 std::vector<std::string> manifest(const CoupledSimulation& simulation, const LiggghtsPort::Summary& grains,
-                                  const std::vector<EffectChoice>& effects,
+                                  const std::vector<EffectState>& effects,
                                   const std::vector<std::string>& walls);
 
 /// "3.81 to 6.83 cells per diameter, Sauter mean 4.97". Needs at least one grain.

@@ -238,7 +238,7 @@ bool RunOutput::saves(long step) const {
 }
 
 MonitorReferences RunOutput::references() const {
-  MonitorReferences all;
+  MonitorReferences all = effects_;
   for (const std::string& name : warned_) all[kWarnedMark + name] = {1};
   for (const auto& monitor : monitors_) monitor->add_references(all);
   return all;

@@ -53,6 +53,8 @@ class RunOutput {
 
   /// What samples of all monitors refer to; those saved with a state, for monitors that open from now on.
   MonitorReferences references() const;
+  /// What effects have come to (RunEffects::add_to), for the states saved from now on.
+  void set_effects(MonitorReferences effects) { effects_ = std::move(effects); }
   void set_references(MonitorReferences references);
 
  private:
@@ -68,7 +70,7 @@ class RunOutput {
   static void write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
-  MonitorReferences references_;
+  MonitorReferences references_, effects_;
   std::vector<std::unique_ptr<Fields>> fields_;
   std::optional<CheckpointRequest> checkpoint_;
   long checkpoint_every_ = 0;

@@ -332,6 +332,13 @@ void LiggghtsPort::set_up_again() {
   coupling::set_up_again(lmp_);
 }
 
+/// Fixes, computes and lists as between two runs, then as a saved state is taken up.
+void LiggghtsPort::set_up_with_new_fixes() {
+  keep_memory();
+  lmp_->init();
+  coupling::set_up_again(lmp_);
+}
+
 void LiggghtsPort::keep_box() {
   std::copy_n(lmp_->domain->boxlo, 3, box_.begin());
   std::copy_n(lmp_->domain->boxhi, 3, box_.begin() + 3);

@@ -45,6 +45,8 @@ class LiggghtsPort final : public ParticlePort {
   /// Within a run, before its state is saved: restart_instant.h. What grains() and memory() gave is no longer
   /// valid. Collective.
   void set_up_again();
+  /// The same where fixes have come or gone since `begin`. Collective.
+  void set_up_with_new_fixes();
   /// The next `advance` shall be the last: the thermo line and dumps of the end are written in it.
   void end_after(int substeps);
   void end();
@@ -128,6 +130,15 @@ class LiggghtsPort final : public ParticlePort {
 
   /// Centres of this rank's grains of the fix's group, m.
   std::vector<Vec3> centres() const;
+
+  /// This rank's own grains of the fix's group, as they are now, within a run or between two.
+  struct OwnedGrain {
+    Vec3 position;  ///< m
+    double speed;   ///< m/s
+    double radius;  ///< m
+    double mass;    ///< kg, as LIGGGHTS moves it
+  };
+  std::vector<OwnedGrain> owned() const;
 
   /// How many grains of the fix's group have diameters in each class: below the first bound, between the
   /// first and second, ..., above the last (m, rising). Collective.

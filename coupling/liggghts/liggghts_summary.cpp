@@ -143,6 +143,16 @@ std::vector<Vec3> LiggghtsPort::centres() const {
   return centres;
 }
 
+std::vector<LiggghtsPort::OwnedGrain> LiggghtsPort::owned() const {
+  std::vector<OwnedGrain> grains;
+  const auto* atom = lmp_->atom;
+  for (int i = 0; i < atom->nlocal; ++i)
+    if ((atom->mask[i] & fix_->groupbit) != 0)
+      grains.push_back({Eigen::Map<const Vec3>(atom->x[i]), Eigen::Map<const Vec3>(atom->v[i]).norm(),
+                        atom->radius[i], atom->rmass[i]});
+  return grains;
+}
+
 std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& bounds) const {
   std::vector<double> counts(bounds.size() + 1, 0);
   for (int i = 0; i < lmp_->atom->nlocal; ++i) {

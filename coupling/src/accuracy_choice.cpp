@@ -9,6 +9,7 @@
 
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/automatic_coefficient.h"
+#include "suffuse/coupling/effects.h"
 
 namespace suffuse::coupling {
 
@@ -23,9 +24,9 @@ constexpr double kScatter = 1.5;
 constexpr double kShareOfTimeStep = 1. / 3;
 constexpr double kLargestMach = 0.2, kLargestRelaxationTime = 1;
 constexpr double kFloatFrom = 0.005, kLeastCellsAStep = 1e-4;
-/// Grains' speed in viscosities a cell from which on TRT's drag is some 2 % too large; and what it is at 5,
-/// with TRT and with the operator that relaxes moments about the cell's own velocity.
-constexpr double kFastGrains = 2, kMeasuredAt = 5, kErrorThere = 0.07, kComovingErrorThere = 0.03;
+/// Error of the drag of grains at 5 viscosities a cell, with TRT and with the operator that relaxes moments
+/// about the cell's own velocity.
+constexpr double kMeasuredAt = 5, kErrorThere = 0.07, kComovingErrorThere = 0.03;
 
 double squared(double value) {
   return value * value;
@@ -63,7 +64,7 @@ void set_time_step(AccuracyChoice& choice, double accuracy, const AccuracyScene&
 
 void set_operators(AccuracyChoice& choice, double accuracy, const AccuracyScene& scene) {
   const double fast = scene.grain_speed * choice.spacing / scene.viscosity;
-  const bool comoving = fast > kFastGrains;
+  const bool comoving = fast > kFastGrains.limit;
   choice.collision = comoving ? lbm::CollisionOperator::trt_comoving : lbm::CollisionOperator::trt;
   choice.errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
   const double moves = scene.velocity * choice.time_step / choice.spacing;

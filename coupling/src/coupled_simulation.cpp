@@ -9,15 +9,25 @@
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
 #include "suffuse/coupling/methods/averaged_flow.h"
-#include "suffuse/coupling/virtual_mass.h"
 #include "suffuse/lbm/health.h"
 
 namespace suffuse::coupling {
 
 namespace {
 
+/// Left as it is where an effect is automatic and nobody has decided.
+lbm::CollisionSettings collision_with(const EffectSettings& effects, lbm::CollisionSettings collision) {
+  using enum lbm::CollisionOperator;
+  if (effects.turbulence != Switch::automatic)
+    collision.smagorinsky = effects.turbulence == Switch::on ? effects.smagorinsky : 0;
+  if (effects.comoving == Switch::on && collision.collision_operator == trt)
+    collision.collision_operator = trt_comoving;
+  return collision;
+}
+
 lbm::FluidSettings fluid_settings(const CoupledSettings& settings, const lbm::Units& units) {
   lbm::FluidSettings fluid = settings.fluid;
+  fluid.collision = collision_with(settings.effects, fluid.collision);
   fluid.collision.relaxation_time = units.relaxation_time();
   if (!settings.averaged) return fluid;
   fluid.collision = {};  // nothing collides: the lattice keeps cells, ranks, kinds of faces and steps
@@ -137,9 +147,15 @@ class MapAndSum final : public lbm::RowVisitor {
 
 }  // namespace
 
+VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Units& units) {
+  return {settings.virtual_mass, units.density(), units.relaxation_time(), units.spacing(),
+          with_coefficients(settings).solids.cells};
+}
+
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                                      const Vec3& origin, ParticlePort& grains)
     : settings_(with_coefficients(settings)),
+      effects_(settings.effects),
       units_(settings.units),
       origin_(origin),
       grains_(grains),
@@ -152,6 +168,14 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
   set_pressure_gradient(settings.pressure_gradient);
+}
+
+void CoupledSimulation::set_effects(const EffectSettings& effects) {
+  effects_ = effects;
+  if (method_) return;
+  lbm::CollisionSettings collision = collision_with(effects, settings_.fluid.collision);
+  collision.relaxation_time = units_.relaxation_time();
+  fluid_.set_collision(collision);
 }
 
 void CoupledSimulation::set_substeps(int substeps) {
@@ -328,11 +352,10 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   const long passed = follows ? std::max(1L, fluid_.steps() - loads_step_) : 1;
   rule.time_step = static_cast<double>(passed) * units_.time_step();
   rule.spacing = units_.spacing();
-  if (settings_.effects.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
+  if (effects_.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
   rule.average = settings_.average_force;
-  rule.rotation = settings_.effects.rotation != Switch::off;
-  const VirtualMassRule virtual_rule{settings_.virtual_mass, units_.density(), units_.relaxation_time(),
-                                     units_.spacing(), settings_.solids.cells};
+  rule.rotation = effects_.rotation != Switch::off;
+  const VirtualMassRule virtual_rule = virtual_mass_rule(settings_, units_);
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
     const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};
@@ -447,7 +470,7 @@ void CoupledSimulation::step_method() {
 /// Force of the method and the weight of the displaced water; no torque.
 void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
   const GrainMemory memory = grains_.memory();
-  const Vec3 gravity = settings_.effects.buoyancy == Switch::off ? Vec3(Vec3::Zero()) : settings_.gravity;
+  const Vec3 gravity = effects_.buoyancy == Switch::off ? Vec3(Vec3::Zero()) : settings_.gravity;
   for (int n = 0; n < grains.owned; ++n) {
     const auto grain = static_cast<std::size_t>(n);
     const double displaced = units_.density() * sphere_volume(grains.radius[n]);
@@ -508,7 +531,10 @@ void CoupledSimulation::step(bool loads_asked_for) {
   if (method_) return step_method();
   place_spheres();
   const bool loads_wanted = loads_asked_for || grains_.reads_loads(loads_span() * substeps_);
-  step_fluid(loads_wanted);
+  if (water_rests())
+    rest(loads_wanted);
+  else
+    step_fluid(loads_wanted);
   stepped_ = true;
   if (loads_wanted) hand_loads_over();
   const Stopwatch watch(times_.grains);

@@ -12,14 +12,28 @@
 namespace suffuse::coupling {
 
 namespace {
-/// Share of the mass from which on the response is taken over to the grain's side.
-constexpr double kSafeShare = 0.4;
 /// Virtual mass over the estimated response.
 constexpr double kMargin = 1.5;
 /// k of the viscosity-independent weighting where it is found cell by cell, for spheres of about a cell.
 constexpr double kUsualCoefficient = kLargestCoefficient;
 /// A sphere below two cells lies in so many of them in the mean, and covers no more of each.
 constexpr double kCellsOfAPoint = 4, kLargestFraction = 0.35;
+
+/// What the fluid in and around a grain answers with, in kg, to a change of its velocity and of its spin.
+struct Response {
+  double moving = 0, turning = 0;
+};
+
+Response response_of(const VirtualMassRule& rule, double radius, double mass) {
+  const double displaced = rule.fluid_density * sphere_volume(radius);
+  const double a = radius / rule.spacing, viscosity = lbm::viscosity_of(rule.relaxation_time);
+  // A light grain is slower to follow than its cells, whose answers of several steps add up.
+  const double of_cells =
+      cell_response_coefficient(a, rule.cells, rule.relaxation_time) * std::max(1., displaced / mass);
+  return {std::min(response_coefficient(a, viscosity), of_cells) * displaced,
+          std::min(rotational_response_coefficient(a, viscosity), of_cells) * displaced};
+}
+
 }  // namespace
 
 double response_coefficient(double radius, double viscosity) {
@@ -40,18 +54,20 @@ double rotational_response_coefficient(double radius, double viscosity) {
   return 10 * std::sqrt(viscosity / std::numbers::pi) / radius + 15 * viscosity / (radius * radius);
 }
 
+double virtual_mass_number(const VirtualMassRule& rule, double radius, double mass) {
+  const Response response = response_of(rule, radius, mass);
+  return std::max(response.moving, response.turning) / mass;
+}
+
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass) {
-  const double displaced = rule.fluid_density * sphere_volume(radius),
-               arm = micromechanics::sphere_inertia(1, radius);
-  if (rule.coefficient) return {*rule.coefficient * displaced, *rule.coefficient * displaced * arm};
-  const double a = radius / rule.spacing, viscosity = lbm::viscosity_of(rule.relaxation_time);
-  // A light grain is slower to follow than its cells, whose answers of several steps add up.
-  const double of_cells =
-      cell_response_coefficient(a, rule.cells, rule.relaxation_time) * std::max(1., displaced / mass);
-  const double response = std::min(response_coefficient(a, viscosity), of_cells) * displaced;
-  const double turning = std::min(rotational_response_coefficient(a, viscosity), of_cells) * displaced;
-  return {response > kSafeShare * mass ? kMargin * response : 0.,
-          turning > kSafeShare * mass ? kMargin * turning * arm : 0.};
+  const double arm = micromechanics::sphere_inertia(1, radius);
+  if (rule.coefficient) {
+    const double added = *rule.coefficient * rule.fluid_density * sphere_volume(radius);
+    return {added, added * arm};
+  }
+  const Response response = response_of(rule, radius, mass);
+  return {response.moving > kSafeResponse * mass ? kMargin * response.moving : 0.,
+          response.turning > kSafeResponse * mass ? kMargin * response.turning * arm : 0.};
 }
 
 }  // namespace suffuse::coupling

@@ -126,6 +126,14 @@ double Fluid::solid_fraction(const Index3& cell) const {
   return std::min(1., core_->partial_solid(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]).fraction);
 }
 
+void Fluid::set_collision(const CollisionSettings& collision) {
+  check(collision);
+  const CollisionSettings& now = core_->settings.collision;
+  if (collision.relaxation_time != now.relaxation_time || collision.incompressible != now.incompressible)
+    throw std::logic_error("Fluid::set_collision: another relaxation time or equilibrium");
+  core_->settings.collision = collision;
+}
+
 void Fluid::set_faces(const FaceConditions& faces) {
   for (std::size_t f = 0; f < kFaces; ++f)
     if (faces[f].kind != core_->settings.faces[f].kind)

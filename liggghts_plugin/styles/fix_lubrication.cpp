@@ -236,6 +236,12 @@ Body FixLubrication::body(int i) const {
 }
 
 void FixLubrication::post_force(int) {
+  const double start = MPI_Wtime();
+  add_held();
+  seconds_ += MPI_Wtime() - start;
+}
+
+void FixLubrication::add_held() {
   if (neighbor->ago == 0) {
     count_films();
     age_ = every_;  // grains may have another index

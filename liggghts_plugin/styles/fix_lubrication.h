@@ -46,6 +46,9 @@ class FixLubrication : public Fix {
   double compute_vector(int n) override;
   double memory_usage() override;
 
+  /// Wall time of this rank in this fix, s.
+  double seconds() const { return seconds_; }
+
   int pack_comm(int n, int* list, double* buffer, int pbc_flag, int* pbc) override;
   void unpack_comm(int n, int first, double* buffer) override;
 
@@ -60,6 +63,7 @@ class FixLubrication : public Fix {
   void add(int i, const suffuse::Vec3& force, const suffuse::Vec3& torque);
   void evaluate();
   void add_pairs();
+  void add_held();
   void add_walls();
   void tally(const suffuse::lubrication::PairLoads& loads, double approach, double gap, double weight);
   suffuse::lubrication::Body body(int i) const;
@@ -84,6 +88,7 @@ class FixLubrication : public Fix {
   std::vector<double> held_;   // force and torque of each owned grain
   int age_ = 0;                // steps that they have been added
   Tally now_, since_run_;
+  double seconds_ = 0;
 };
 
 }  // namespace LAMMPS_NS

@@ -120,7 +120,7 @@ def check_refusals(program, folder, again):
                         ("lbm solid operator sc3", ["solid operator = sc3", "be force"]),
                         ("lbm solid coefficient 3", ["solid coefficient = 3", "be auto"]),
                         ("lbm solid fraction linear", ["solid fraction = linear", "be exact"]),
-                        ("lbm effect turbulence on 0.15", ["effect turbulence = on 0.15", "be off"])):
+                        ("lbm effect turbulence on 0.15", ["effect turbulence = on 0.15", "be auto 0.1"])):
         cases.append((again + line + "\n" + read + "lbm run 1e-3\n", words))
     amiss = mistakes_not_named(program, cases, folder, lambda text: text.splitlines()[-3])
     expect(not amiss, "\n".join(amiss))

@@ -1,4 +1,4 @@
-// What runs report: means over planes, effects that are chosen, and the grains' file.
+// What runs report: means over planes, and the grains' file.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -66,43 +66,6 @@ TEST_CASE("Planes know the flux, the solids' share of it, and the pressure betwe
   CHECK(hydraulic_gradient(planes, 2 * kSpacing, 17 * kSpacing, 50, 9810) ==
         Approx((-pascal_a_cell / kSpacing + 50) / 9810).epsilon(1e-9));
   CHECK(planes.stored_mass == Approx(0).margin(1e-12 * planes.fluid_mass));
-}
-
-TEST_CASE("Effects left to themselves follow the scene") {
-  const CoupledSettings settings = water();
-  const lbm::Units units(settings.units);
-  const auto chosen = [&](const SceneFacts& facts, EffectSettings effects = {}) {
-    choose_effects(effects, facts, units);
-    return effects;
-  };
-  SceneFacts bed;
-  bed.largest_radius = 0.5e-3;
-  bed.largest_density = 2650;
-  bed.packing = 0.6;
-  bed.gravity = 9.81;
-  bed.grains_move = true;
-  CHECK(chosen(bed).lubrication == Switch::off);
-  CHECK(chosen(bed).turbulence == Switch::off);
-  CHECK(chosen(bed).buoyancy == Switch::on);
-  CHECK(chosen(bed).rotation == Switch::on);
-  SceneFacts suspension = bed;
-  suspension.packing = 0.2;
-  CHECK(chosen(suspension).lubrication == Switch::on);
-  suspension.largest_radius = 20e-3;  // stones rebound as if dry
-  CHECK(chosen(suspension).lubrication == Switch::off);
-  SceneFacts fast = bed;
-  fast.fastest_flow = 0.11;  // u dx/nu = 11
-  CHECK(chosen(fast).turbulence == Switch::on);
-  EffectSettings asked;
-  asked.turbulence = Switch::off;
-  asked.lubrication = Switch::on;
-  CHECK(chosen(fast, asked).turbulence == Switch::off);
-  CHECK(chosen(fast, asked).lubrication == Switch::on);
-  SceneFacts held = bed;
-  held.grains_move = false;
-  held.gravity = 0;
-  CHECK(chosen(held).rotation == Switch::off);
-  CHECK(chosen(held).buoyancy == Switch::off);
 }
 
 TEST_CASE("Pressure spreads through Appendix C's bed as its two-way account says") {

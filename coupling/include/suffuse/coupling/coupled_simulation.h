@@ -9,6 +9,7 @@
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/coupling/solid_mapping.h"
+#include "suffuse/coupling/virtual_mass.h"
 
 namespace suffuse::coupling {
 
@@ -28,6 +29,9 @@ class SeenGrains {
   std::vector<int> ids_;
   bool has_seen_ = false;  ///< nothing seen is not the same as no grains
 };
+
+/// By which a simulation with these settings gives grains inertia of the fluid.
+VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Units& units);
 
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
 /// hands what it exerted to the grains and advances these.
@@ -113,6 +117,9 @@ class CoupledSimulation {
   /// How often automatic coefficients were found.
   long surveys() const { return surveys_; }
 
+  /// Steps of the water's rest that were not computed (CoupledSettings::skip_rest).
+  long rested_steps() const { return rested_steps_; }
+
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
   CoupledTimes& times() { return times_; }
@@ -128,6 +135,11 @@ class CoupledSimulation {
   /// wall that they touch. Collective.
   long grains_behind_walls() const;
 
+  /// What effects have come to, from the next step on: operator and eddy viscosity of the collision,
+  /// buoyancy, torque. At first those of the settings.
+  void set_effects(const EffectSettings& effects);
+  const EffectSettings& effects() const { return effects_; }
+
   /// New values from the next step on, SI.
   void set_faces(const lbm::FaceConditions& faces);
   void set_gravity(const Vec3& si) { settings_.gravity = si; }
@@ -136,6 +148,10 @@ class CoupledSimulation {
  private:
   void place_spheres();
   void step_fluid(bool loads_wanted);
+  bool water_rests();
+  bool is_at_rest() const;
+  bool is_driven() const;
+  void rest(bool loads_wanted);
   void step_method();
   void hand_method_loads_over(const GrainArrays& grains);
   void hand_loads_over();
@@ -147,6 +163,7 @@ class CoupledSimulation {
   void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
+  EffectSettings effects_;
   lbm::Units units_;
   Vec3 origin_;
   ParticlePort& grains_;
@@ -161,8 +178,11 @@ class CoupledSimulation {
   static constexpr long kNever = -1, kWhoeverIsThere = -2;
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
-  bool stepped_ = false;           ///< since this simulation began
-  long loads_step_ = kNever;       ///< fluid step of the loads in the port's memory
+  long rested_steps_ = 0;
+  long rested_at_ = kNever;   ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;   ///< it is never at rest again, to the last digit
+  bool stepped_ = false;      ///< since this simulation began
+  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
   SeenGrains seen_;
   std::string acting_walls_;

@@ -30,21 +30,28 @@ struct SolidSettings {
 
 enum class Switch { off, on, automatic };
 
-/// Effects that a scene may call for; what `automatic` decides is in effects.h.
+/// Effects that a scene may call for; what `automatic` decides is in effects.h. Where nobody decides, as in a
+/// CoupledSimulation by itself, automatic ones that need no velocity (buoyancy, rotation) act and the others
+/// are left as the collision's settings have them.
 struct EffectSettings {
   Switch turbulence = Switch::automatic;   ///< Smagorinsky's eddy viscosity
+  Switch comoving = Switch::automatic;     ///< `trt_comoving` in place of `trt`
   Switch lubrication = Switch::automatic;  ///< forces in gaps that the lattice does not resolve
   Switch buoyancy = Switch::on;            ///< displaced fluid's weight on grains under `gravity`
   Switch rotation = Switch::on;            ///< torque of the fluid on grains
+  double smagorinsky = 0.1;                ///< constant of the eddy viscosity where turbulence is on
 };
 
 struct CoupledSettings {
   lbm::UnitsRequest units;
   /// Averaged flow on cells larger than the grains; without, the lattice resolves the flow between them.
   std::optional<AveragedSettings> averaged;
-  lbm::FluidSettings fluid;  ///< its relaxation time is set from the units
+  lbm::FluidSettings fluid;  ///< its relaxation time is set from the units, its operator may follow effects
   SolidSettings solids;
   EffectSettings effects;
+  /// Steps of water that is at rest to the last digit, and that nothing moves, are not computed: they would
+  /// change nothing.
+  bool skip_rest = false;
   int substeps = 0;                       ///< DEM steps a fluid step; 0: from the DEM time step, as it is
   bool average_force = false;             ///< loads are the mean of the last two fluid steps'
   std::optional<double> virtual_mass;     ///< VirtualMassRule::coefficient

@@ -50,6 +50,13 @@ double cell_response_coefficient(double radius, const lbm::PartialSolidSettings&
 /// The same for rotation, in moments of inertia of the displaced fluid: 10 sqrt(nu/pi)/a + 15 nu/a^2.
 double rotational_response_coefficient(double radius, double viscosity);
 
+/// Share of a grain's mass from which on the fluid's answer to a change of its velocity, C m_f, is taken over
+/// to the grain's side.
+inline constexpr double kSafeResponse = 0.4;
+
+/// C m_f/m of a sphere of `radius` (m) and `mass` (kg), translation or rotation, whichever is larger.
+double virtual_mass_number(const VirtualMassRule& rule, double radius, double mass);
+
 /// Of a sphere of `radius` (m) and `mass` (kg): by the smaller of response_coefficient and
 /// cell_response_coefficient, the latter m_f/m times for grains that are lighter than the fluid. The estimate
 /// is for a lone sphere; grains get 1.5 times it from C m_f > 0.4 m on, as neighbours make the fluid's answer

@@ -90,6 +90,10 @@ class Fluid {
   void set_force(const Vec3& force);
   const Vec3& force() const;
 
+  /// Another operator or eddy viscosity from the next step on; relaxation time and equilibrium must stay what
+  /// they were, since the populations are of them.
+  void set_collision(const CollisionSettings& collision);
+
   /// New values for the faces from the next step on; the kinds must stay what they were.
   void set_faces(const FaceConditions& faces);
 

@@ -1,0 +1,129 @@
+#include "run_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace suffuse::coupling {
+
+namespace {
+
+/// Before the name of an effect among the monitors' references of a saved state.
+constexpr std::string_view kMark = "effect: ";
+
+/// Largest of this value on any rank.
+double largest_of_ranks(double value, MPI_Comm communicator) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, communicator);
+  return value;
+}
+
+double largest_virtual_mass_number(const CoupledSettings& settings, const LiggghtsPort& port) {
+  if (settings.averaged) return 0;  // has inertia of its own
+  const VirtualMassRule rule = virtual_mass_rule(settings, lbm::Units(settings.units));
+  double largest = 0;
+  for (const LiggghtsPort::OwnedGrain& grain : port.owned())
+    largest = std::max(largest, virtual_mass_number(rule, grain.radius, grain.mass));
+  return largest;
+}
+
+/// Of grains whose centre lies in the fluid's box, m/s: others are dry.
+double fastest_wet_grain(const LiggghtsPort& port, const CoupledSimulation& simulation) {
+  const lbm::Index3& cells = simulation.fluid().decomposition().cells();
+  double fastest = 0;
+  for (const LiggghtsPort::OwnedGrain& grain : port.owned()) {
+    const Vec3 at = (grain.position - simulation.origin()) / simulation.units().spacing();
+    if ((at.array() >= 0).all() && (at.array() <= Eigen::Array3d(cells[0], cells[1], cells[2])).all())
+      fastest = std::max(fastest, grain.speed);
+  }
+  return fastest;
+}
+
+}  // namespace
+
+double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& faces) {
+  const lbm::Units units(request);
+  double fastest = request.largest_velocity.value_or(0);
+  for (const lbm::FaceCondition& face : faces)
+    if (face.kind == lbm::FaceKind::velocity)
+      fastest = std::max(fastest, units.velocity_to_si(face.velocity).norm());
+  return fastest;
+}
+
+EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port,
+                            MPI_Comm communicator) {
+  const LiggghtsPort::Summary grains = port.summary();
+  EffectFacts facts;
+  facts.given_speed = given_speed(settings.units, settings.fluid.faces);
+  facts.grain_speed = grains.speed;
+  facts.largest_radius = grains.largest_radius;
+  facts.largest_density = grains.largest_density;
+  facts.packing = grains.packing;
+  facts.gravity = settings.gravity.norm();
+  facts.grains_move = grains.grains > 0 && port.anything_moves();
+  facts.virtual_mass = largest_of_ranks(largest_virtual_mass_number(settings, port), communicator);
+  return facts;
+}
+
+EffectFacts RunEffects::facts_now(const LiggghtsPort& port, const CoupledSimulation& simulation,
+                                  double water_speed) const {
+  const MPI_Comm communicator = simulation.fluid().decomposition().communicator();
+  CoupledSettings now = simulation.settings();
+  now.fluid.faces = simulation.fluid().settings().faces;
+  EffectFacts facts = facts_of_grains(now, port, communicator);
+  facts.water_speed = water_speed;
+  facts.grain_speed = largest_of_ranks(fastest_wet_grain(port, simulation), communicator);
+  return facts;
+}
+
+EffectSettings RunEffects::start(const CoupledSettings& settings, LiggghtsPort& port, MPI_Comm communicator,
+                                 const std::string& state) {
+  switches_.emplace(settings, lbm::Units(settings.units));
+  if (!state.empty()) {
+    std::map<std::string, std::vector<double>> record;
+    for (const auto& [name, values] : load_references(state, communicator))
+      if (name.starts_with(kMark)) record[name.substr(kMark.size())] = values;
+    switches_->restore(record, "lbm restart read " + state);
+    restored_ = !record.empty();
+  }
+  // What follows from the script alone, and the rest where no state has it.
+  (void)switches_->begin(facts_of_grains(settings, port, communicator), 0);
+  return switches_->settings();
+}
+
+std::vector<std::string> RunEffects::begin(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                                           CoupledSimulation& simulation, const FilmForces::Planes& planes) {
+  planes_ = planes;
+  if (restored_) looked_at_ = simulation.fluid().steps();  // the run that saved it has looked
+  restored_ = false;
+  const double water = simulation.units().velocity_to_si(simulation.extremes().largest_speed);
+  std::vector<std::string> lines = switches_->begin(facts_now(port, simulation, water), simulation.time_si());
+  const EffectSettings effects = switches_->settings();
+  simulation.set_effects(effects);
+  films_.follow(lmp, effects.lubrication == Switch::on, port.summary().smallest_radius, simulation, planes_);
+  return lines;
+}
+
+std::vector<std::string> RunEffects::look(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+                                          CoupledSimulation& simulation, const lbm::FluidExtremes& extremes) {
+  const long step = simulation.fluid().steps();
+  if (step % kEffectsEvery != 0 || step == looked_at_) return {};
+  looked_at_ = step;
+  const double water = simulation.units().velocity_to_si(extremes.largest_speed);
+  std::vector<std::string> lines = switches_->look(facts_now(port, simulation, water), simulation.time_si());
+  if (lines.empty()) return lines;
+  const EffectSettings effects = switches_->settings();
+  simulation.set_effects(effects);
+  if (films_.follow(lmp, effects.lubrication == Switch::on, port.summary().smallest_radius, simulation,
+                    planes_)) {
+    simulation.refresh_loads();  // the grains' memory travels with them
+    port.set_up_with_new_fixes();
+    simulation.map_anew();
+  }
+  return lines;
+}
+
+void RunEffects::add_to(MonitorReferences& references) const {
+  for (const auto& [name, values] : switches_->record()) references[std::string(kMark) + name] = values;
+}
+
+}  // namespace suffuse::coupling
