@@ -8,6 +8,7 @@
 #include <set>
 
 #include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/placeholder.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/toml_file.h"
 
@@ -80,7 +81,7 @@ std::string value_text(const toml::node& node, const Section& section, const std
     if (std::isfinite(number->get())) return fmt::format("{}", number->get());
   const auto* text = node.as_string();
   if (text == nullptr || text->get().empty()) section.complain(key, "neither", "be a number or a text");
-  return with_folder(text->get(), "{study}", files::absolute(section.file()).parent_path().string());
+  return with_value(text->get(), "{study}", files::absolute(section.file()).parent_path().string());
 }
 
 VariableValues variables_of(const Section& root, const char* name) {
@@ -244,17 +245,11 @@ void require_no_preparation(const Section& root, const Study& study) {
 
 }  // namespace
 
-std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder) {
-  for (std::size_t at = 0; (at = value.find(placeholder, at)) != value.npos; at += folder.size())
-    value.replace(at, placeholder.size(), folder);
-  return value;
-}
-
 Study read_study(const std::string& path) {
   const toml::table table = read_toml(path, "suffuse-study");
   const Section root(path, "", &table,
-                     {"title", "script", "ranks", "time_limit", "within", "design", "fixed", "base", "sweep",
-                      "finest", "quantity", "prepare"});
+                     {"title", "script", "ranks", "launcher", "time_limit", "within", "design", "fixed",
+                      "base", "sweep", "finest", "quantity", "prepare"});
   Study study;
   study.file = files::absolute(path).string();
   study.title = root.text("title", files::path(path).stem().string());
@@ -263,6 +258,8 @@ Study read_study(const std::string& path) {
   if (ranks != std::floor(ranks) || ranks > 100000)
     root.complain("ranks", fmt::format("{}", ranks), "be a whole number up to 100000");
   study.ranks = static_cast<int>(ranks);
+  if (root.has("launcher"))
+    study.launcher = {root.text("launcher"), files::absolute(path).parent_path().string(), path, "launcher"};
   study.time_limit = root.number("time_limit", 0, 0);
   study.within = root.number("within", 3, 0) / 100;
   const std::string design = root.text("design", "grid");

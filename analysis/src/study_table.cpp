@@ -47,10 +47,15 @@ std::string aligned(const std::vector<Cells>& lines, std::size_t texts) {
 
 }  // namespace
 
-void StudyTable::add(StudyRow row) {
+const StudyRow& StudyTable::add(StudyRow row) {
   row.values.resize(study_.quantities.size());
-  rows_.push_back(std::move(row));
+  const auto after =
+      std::upper_bound(rows_.begin(), rows_.end(), row.place,
+                       [](std::size_t place, const StudyRow& other) { return place < other.place; });
+  const auto at = after - rows_.begin();
+  rows_.insert(after, std::move(row));
   work_out_errors();
+  return rows_[static_cast<std::size_t>(at)];
 }
 
 bool StudyTable::none_finished() const {
@@ -182,8 +187,8 @@ std::string StudyTable::text() const {
   for (const StudyRow& row : rows_) other = std::max(other, row.record.other_cores);
   if (other > kOtherLoad && by_wall)
     text += fmt::format(
-        "note: other programs kept up to {:.1f} cores busy; wall times suffer from that, --time core less\n",
-        other);
+        "note: {} kept up to {:.1f} cores busy; wall times suffer from that, --time core less\n",
+        several_at_once_ ? "runs beside each other, or other programs," : "other programs", other);
   return text;
 }
 

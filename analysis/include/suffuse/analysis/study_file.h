@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/study_launcher.h"
 
 namespace suffuse::analysis {
 
@@ -15,9 +16,6 @@ using VariableValues = std::vector<std::pair<std::string, std::string>>;
 
 /// Values of some variables of which every combination is run.
 using SweepBlock = std::vector<std::pair<std::string, std::vector<std::string>>>;
-
-/// A value with every {study} or {prepare}, say, replaced by the folder that it stands for.
-std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder);
 
 /// What is read from every run, and what it should be.
 struct StudyQuantity {
@@ -39,6 +37,7 @@ struct Preparation {
 struct Study {
   std::string file, title, script;
   int ranks = 1;
+  StudyLauncher launcher;
   double time_limit = 0;       ///< seconds a run; 0: none
   double within = 0.03;        ///< the error that the study's last sentence asks for
   bool one_at_a_time = false;  ///< each variable by itself around `base`, instead of every combination
