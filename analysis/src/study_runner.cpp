@@ -313,11 +313,19 @@ class Runner {
     std::string names;
     for (const std::string& name : swept_names(study_)) names += (names.empty() ? "" : ",") + name;
     const std::string figure = (out_ / "study.png").string();
-    make_figure("accuracy_and_time.py",
-                {(out_ / "study.csv").string(), "--variables", names, "--time",
-                 settings_.time == StudyTime::wall ? "wall" : "core", "--within",
-                 fmt::format("{}", study_.within), "--title", study_.title, "--output", figure},
-                kWho);
+    std::vector<std::string> words{(out_ / "study.csv").string(),
+                                   "--variables",
+                                   names,
+                                   "--time",
+                                   settings_.time == StudyTime::wall ? "wall" : "core",
+                                   "--within",
+                                   fmt::format("{}", study_.within),
+                                   "--title",
+                                   study_.title,
+                                   "--output",
+                                   figure};
+    if (study_.extrapolate) words.insert(words.end(), {"--extrapolated", study_.extrapolate->variable});
+    make_figure("accuracy_and_time.py", words, kWho);
     fmt::print("{}\n", figure);
   }
 

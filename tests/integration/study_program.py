@@ -197,11 +197,17 @@ def check_several_at_once(study):
     study.write("in.tiny", TINY)
     study.write("starts", LAUNCHER.format(together=3))
     (study.folder / "starts").chmod(0o755)
-    text = TINY_STUDY.replace("[1, 2]", "[6, 1, 2, 4]").replace("[sweep]", 'launcher = "./starts {ranks}"\n[sweep]')
+    text = TINY_STUDY.replace("[1, 2]", "[6, 1, 2, 4]").replace("[sweep]", 'launcher = "./starts {ranks}"\n[sweep]') + '[extrapolate]\nspacing = "value"\norder = 1\n'
     file = study.write("several.toml", text)
     out = study.must_run(file, "--out", "several", "--no-figure", "--cores", 3)
     rows = [(row["value"], row["status"], row["answer"]) for row in study.rows("several")]
     check(rows == [("6", "failed", ""), ("1", "finished", "1"), ("2", "finished", "2"), ("4", "finished", "4")], f"{rows}")
+    # The answer is the spacing itself: 0 without one, and the first-order index of the finest run is 1.25 times its answer.
+    limits = {(row["answer_convergence"], row["extrapolated_from"]) for row in study.rows("several")}
+    check(limits == {("", ""), ("converges", "1 2 4")}, f"{limits}")
+    finest = study.rows("several")[1]
+    check(abs(float(finest["answer_extrapolated"])) < 1e-12 and finest["answer_error_bar"] == "1.25" and finest["answer_order"] == "1", f"{finest}")
+    check("± 1.2 (order 1)" in out and "error -1e+02 ± 83 %" in out, out)
     check("4 runs, up to 3 at once" in out and (study.folder / "ranks").read_text().split() == ["1"] * 4, out)
 
     (study.folder / "asleep").touch()
@@ -264,6 +270,9 @@ def check_mistakes(study):
     refuse(["value", "[prepare]"], old="[1, 2]", new='["{prepare}/sample"]')
     refuse(["design", "one_at_a_time"], old="[sweep]", new='design = "all"\n[sweep]')
     refuse(["--program", "no_such_program"], words=["--program", "no_such_program"])
+    refuse(["[extrapolate] cells", "one of both"], extra="[extrapolate]\norder = 2\n")
+    refuse(["[extrapolate] cells", "[sweep]"], extra='[extrapolate]\ncells = "other"\n')
+    refuse(["[extrapolate] spacing", "value = -1", "> 0"], old="[1, 2]", new="[-1, 2]", extra='[extrapolate]\nspacing = "value"\n')
     refuse(["--cores", "hold a run", "2 ranks"], words=["--ranks", "2", "--cores", "1"])
     refuse(["--launcher", "{ranks}"], words=["--launcher", "srun -n 1"])
     refuse(["launcher", "/none", "can be run"], old="[sweep]", new='launcher = "./none {ranks}"\n[sweep]')

@@ -33,6 +33,13 @@ struct Preparation {
   VariableValues variables;
 };
 
+/// By which swept variable results are extrapolated to no spacing at all.
+struct StudyExtrapolationRule {
+  std::string variable;
+  bool counts_cells = true;  ///< a number of cells, else a spacing
+  double order = 2;          ///< of the method
+};
+
 /// What a study file asks for (docs/analysis/suffuse-study.md). Files are absolute.
 struct Study {
   std::string file, title, script;
@@ -46,6 +53,7 @@ struct Study {
   VariableValues finest;  ///< swept variables of the run that is the reference; empty: none
   std::vector<StudyQuantity> quantities;
   std::optional<Preparation> preparation;
+  std::optional<StudyExtrapolationRule> extrapolate;
 };
 
 /// Reads and checks a study file; references that are cells of CSV files are looked up. Nothing is run.

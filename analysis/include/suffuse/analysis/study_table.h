@@ -59,6 +59,7 @@ class StudyTable {
   std::string finished_text() const;
   std::string failed_text() const;
   std::string notes_text() const;
+  std::string extrapolated_text() const;
 
   const Study& study_;
   StudyTime time_;
