@@ -22,9 +22,8 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the time,
-/// and more often once a flow is near its limit.
-constexpr long kCheckEvery = 250, kCheckNearLimitEvery = 50;
+/// Fluid steps between looks of the guards once a flow is near its limit.
+constexpr long kCheckNearLimitEvery = 50;
 
 /// Grains faster than this many viscosities a cell have a drag that is some 2 % too large in beds that carry
 /// their water (docs/decisions/solid-operator.md).
