@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   CLI::App app{kDescription, "suffuse-study"};
   app.set_version_flag("--version", "suffuse-study " SUFFUSE_VERSION);
   std::string file;
-  std::string time = "wall";
+  std::string time = "wall", launcher;
   int ranks = 0;
   StudyRunSettings settings;
   bool no_figure = false;
@@ -43,6 +43,11 @@ int main(int argc, char** argv) {
                  "folder for runs and results; runs/NAME of the study file if not given");
   app.add_option("--ranks", ranks, "MPI ranks of every run, instead of the study's")
       ->check(CLI::Range(1, 100000));
+  app.add_option("--launcher", launcher,
+                 "what starts the ranks, {ranks} their number: \"srun --exact -n {ranks}\"");
+  app.add_option("--cores", settings.cores,
+                 "cores that runs at once may take together; those of one run if not given")
+      ->check(CLI::Range(1, 1000000));
   app.add_flag("--dry-run", settings.dry_run, "print the commands, run nothing");
   app.add_flag("--resume", settings.resume,
                "keep the runs that have ended in that folder, and do the others");
@@ -59,6 +64,7 @@ int main(int argc, char** argv) {
     settings.time = time == "core" ? StudyTime::core : StudyTime::wall;
     Study study = read_study(file);
     if (ranks > 0) study.ranks = ranks;
+    if (app.count("--launcher") > 0) study.launcher = {launcher, ".", "suffuse-study", "--launcher"};
     if (settings.out.empty()) settings.out = "runs/" + std::filesystem::path(file).stem().string();
     const int code = run_study(study, settings);
     suffuse::require_printed_output();

@@ -108,6 +108,37 @@ def one_at_a_time(rows, variables):
     return len(variables) > 2 and all(row["changes"] <= 1 for row in runs)
 
 
+def extrapolated(rows, options):
+    """Groups of runs that differ in their resolution alone, with the seconds of those that were extrapolated from, and the largest error
+    of the extrapolated values with its bar."""
+    groups = {}
+    for row in rows:
+        if row.get("extrapolated_from"):
+            groups.setdefault(tuple(row[name] for name in options.variables if name != options.extrapolated), []).append(row)
+    found = []
+    for group in groups.values():
+        row = group[0]
+        used = row["extrapolated_from"].split()
+        errors = []
+        for name in (column[: -len("_extrapolated")] for column in row if column.endswith("_extrapolated")):
+            value, reference = number(row[f"{name}_extrapolated"]), number(row[f"{name}_reference"])
+            if value is not None and reference:
+                errors.append((abs(value / reference - 1), abs(number(row[f"{name}_error_bar"]) / reference)))
+        if errors:
+            found.append({"row": row, "x": sum(float(one[f"{options.time}_s"]) for one in group if one[options.extrapolated] in used), "error": max(errors)})
+    return found
+
+
+def draw_extrapolated(axes, found, looks, least):
+    """A diamond at the time of all runs that it takes, from error less bar to error and bar."""
+    for one in found:
+        error, bar = one["error"]
+        y, low = 100 * max(error, least / 2), 100 * max(error - bar, least / 2)
+        colour = looks.of(one["row"])["color"] if len(looks.variables) > 1 else "black"
+        axes.errorbar(one["x"], y, yerr=[[max(y - low, 0)], [100 * (error + bar) - y]], color=colour, marker="D", markersize=6, markerfacecolor="white",
+                      markeredgewidth=1.1, elinewidth=0.8, capsize=2.5, zorder=1.8)
+
+
 def draw(rows, options):
     import suffuse_style as style
     from matplotlib.lines import Line2D
@@ -135,7 +166,9 @@ def draw(rows, options):
         if row["front"] == "1":
             axes.plot(row["x"], row["y"], linestyle="", marker="o", markersize=9, fillstyle="none", color="black", markeredgewidth=0.7, zorder=2)
     axes.set(xscale="log", yscale="log", xlabel=f"{options.time} time (s)", ylabel="error (%)", title=style.plain(options.title or pathlib.Path(options.study).parent.name))
-    ends = [row["x"] for row in runs + failed]
+    limits = extrapolated(rows, options) if options.extrapolated else []
+    draw_extrapolated(axes, limits, looks, least)
+    ends = [row["x"] for row in runs + failed + limits]
     low, high = min(ends), max(ends)
     span = max(high / low, 2)  # a single run has none
     axes.set_xlim(low / span**0.05, high * span**0.12)  # room for the labels
@@ -152,6 +185,8 @@ def draw(rows, options):
             axis.set_major_locator(LogLocator(subs=(1, 1.5, 2, 3, 4, 5, 7), numticks=12))
 
     entries = looks.legend() + [Line2D([], [], color="#606060", linewidth=1.0, marker="o", markersize=9, fillstyle="none", label="best so far")]
+    if limits:
+        entries.append(Line2D([], [], linestyle="", marker="D", markersize=6, markerfacecolor="white", color="black", label="extrapolated, time of its runs"))
     if failed:
         entries.append(Line2D([], [], linestyle="", marker="x", color="#606060", label="failed or unsteady" if any(row["status"] == "unsteady" for row in failed) else "failed"))
     axes.legend(handles=entries, fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5), handletextpad=0.2)
@@ -165,6 +200,7 @@ def main():
     parser.add_argument("--variables", required=True, type=lambda text: text.split(","), help="the swept ones, with commas")
     parser.add_argument("--time", choices=("wall", "core"), default="wall", help="which seconds to draw")
     parser.add_argument("--within", type=float, help="an error (share) to draw a line at")
+    parser.add_argument("--extrapolated", metavar="VARIABLE", help="the resolution by which values were extrapolated: draws these too")
     parser.add_argument("--title")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
     parser.add_argument("--width", type=float, help="of the figure, inches")

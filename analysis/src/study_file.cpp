@@ -8,6 +8,8 @@
 #include <set>
 
 #include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/number_parser.h"
+#include "suffuse/analysis/placeholder.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/toml_file.h"
 
@@ -80,7 +82,7 @@ std::string value_text(const toml::node& node, const Section& section, const std
     if (std::isfinite(number->get())) return fmt::format("{}", number->get());
   const auto* text = node.as_string();
   if (text == nullptr || text->get().empty()) section.complain(key, "neither", "be a number or a text");
-  return with_folder(text->get(), "{study}", files::absolute(section.file()).parent_path().string());
+  return with_value(text->get(), "{study}", files::absolute(section.file()).parent_path().string());
 }
 
 VariableValues variables_of(const Section& root, const char* name) {
@@ -242,19 +244,41 @@ void require_no_preparation(const Section& root, const Study& study) {
       for (const std::string& value : values) look(name, value);
 }
 
-}  // namespace
-
-std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder) {
-  for (std::size_t at = 0; (at = value.find(placeholder, at)) != value.npos; at += folder.size())
-    value.replace(at, placeholder.size(), folder);
-  return value;
+StudyExtrapolationRule extrapolation_of(const Section& root, const Study& study) {
+  const Section section(root.file(), "extrapolate", &root.table("extrapolate"),
+                        {"cells", "spacing", "order"});
+  StudyExtrapolationRule rule;
+  if (section.has("cells") == section.has("spacing"))
+    section.complain("cells", "and spacing", "be given, one of both, with the name of a swept variable");
+  rule.counts_cells = section.has("cells");
+  const char* key = rule.counts_cells ? "cells" : "spacing";
+  rule.variable = section.text(key);
+  rule.order = section.number("order", rule.order, 0.5);
+  bool is_swept = false;
+  const auto require_size = [&](const std::string& name, const std::string& value) {
+    if (name != rule.variable) return;
+    double size = 0;
+    if (!parse_number(value, size) || !(size > 0) || !std::isfinite(size))
+      section.complain(key, name + " = " + value, "have numbers > 0 in all runs");
+  };
+  for (const SweepBlock& block : study.sweeps)
+    for (const auto& [name, values] : block) {
+      is_swept = is_swept || name == rule.variable;
+      for (const std::string& value : values) require_size(name, value);
+    }
+  if (!is_swept) section.complain(key, rule.variable, "be a variable of [sweep]");
+  for (const auto& [name, value] : study.base) require_size(name, value);
+  for (const auto& [name, value] : study.finest) require_size(name, value);
+  return rule;
 }
+
+}  // namespace
 
 Study read_study(const std::string& path) {
   const toml::table table = read_toml(path, "suffuse-study");
   const Section root(path, "", &table,
-                     {"title", "script", "ranks", "time_limit", "within", "design", "fixed", "base", "sweep",
-                      "finest", "quantity", "prepare"});
+                     {"title", "script", "ranks", "launcher", "time_limit", "within", "design", "fixed",
+                      "base", "sweep", "finest", "quantity", "prepare", "extrapolate"});
   Study study;
   study.file = files::absolute(path).string();
   study.title = root.text("title", files::path(path).stem().string());
@@ -263,6 +287,8 @@ Study read_study(const std::string& path) {
   if (ranks != std::floor(ranks) || ranks > 100000)
     root.complain("ranks", fmt::format("{}", ranks), "be a whole number up to 100000");
   study.ranks = static_cast<int>(ranks);
+  if (root.has("launcher"))
+    study.launcher = {root.text("launcher"), files::absolute(path).parent_path().string(), path, "launcher"};
   study.time_limit = root.number("time_limit", 0, 0);
   study.within = root.number("within", 3, 0) / 100;
   const std::string design = root.text("design", "grid");
@@ -281,6 +307,7 @@ Study read_study(const std::string& path) {
   }
   if (!by_finest && !study.finest.empty())
     root.complain("[finest]", "given", "be the reference of a quantity: reference = \"finest\"");
+  if (root.has("extrapolate")) study.extrapolate = extrapolation_of(root, study);
   require_one_of_each(root, study);
   if (root.has("prepare")) {
     const Section section(path, "prepare", &root.table("prepare"), {"script", "variables"});

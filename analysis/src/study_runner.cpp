@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <numeric>
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/figure_script.h"
+#include "suffuse/analysis/placeholder.h"
 #include "suffuse/analysis/project_files.h"
 #include "suffuse/analysis/shell_word.h"
 #include "suffuse/analysis/timed_process.h"
@@ -36,22 +38,25 @@ std::string find_program(const std::string& given) {
   return files::exists(beside) ? beside.string() : "suffuse";
 }
 
-/// scripts/mpirun of the source tree above the program, or Open MPI's own.
-std::vector<std::string> launcher(int ranks) {
-  if (ranks == 1) return {};
-  for (files::path above = program_folder(); above.has_relative_path(); above = above.parent_path())
-    if (files::is_regular_file(above / "scripts/mpirun"))
-      return {(above / "scripts/mpirun").string(), std::to_string(ranks)};
-  return {"mpirun", "-np", std::to_string(ranks)};
+int runs_at_once(const Study& study, const StudyRunSettings& settings) {
+  if (settings.cores == 0) return 1;
+  if (settings.cores < study.ranks)
+    throw_user_error({kWho, "--cores", fmt::format("{}", settings.cores),
+                      fmt::format("hold a run, of {} ranks", study.ranks), ""});
+  return settings.cores / study.ranks;
 }
 
 class Runner {
  public:
   Runner(const Study& study, const StudyRunSettings& settings)
-      : study_(study), settings_(settings), cases_(study_cases(study)), table_(study, settings.time) {
+      : study_(study),
+        settings_(settings),
+        cases_(study_cases(study)),
+        at_once_(runs_at_once(study, settings)),
+        table_(study, settings.time, at_once_ > 1) {
     out_ = files::absolute(settings.out).lexically_normal();
     const std::string program = find_program(settings.program);
-    first_words_ = launcher(study.ranks);
+    first_words_ = study.launcher.words(study.ranks);
     first_words_.push_back(program);
     check_variables();
   }
@@ -61,7 +66,7 @@ class Runner {
     make_folders();
     const SignalWatch watch({{SIGINT, SignalWatch::Second::noted}, {SIGTERM, SignalWatch::Second::noted}});
     prepare();
-    for (std::size_t k = 0; k < cases_.size() && SignalWatch::received() == 0; ++k) run_case(k);
+    run_cases();
     const int signal = SignalWatch::received();
     report();
     if (signal == 0 && table_.none_finished())
@@ -92,7 +97,7 @@ class Runner {
     std::vector<std::string> words = first_words_;
     words.insert(words.end(), {"-in", script});
     for (const auto& [name, value] : variables)
-      words.insert(words.end(), {"-var", name, with_folder(value, "{prepare}", (out_ / "prepare").string())});
+      words.insert(words.end(), {"-var", name, with_value(value, "{prepare}", (out_ / "prepare").string())});
     return words;
   }
 
@@ -148,15 +153,20 @@ class Runner {
       throw_user_error({kWho, "--out", settings_.out, "be a folder that can be made", problem.message()});
   }
 
-  /// Runs a script in an empty folder and keeps its record; nothing where it was interrupted.
-  std::optional<RunRecord> execute(const std::string& folder, const std::vector<std::string>& words,
-                                   const std::string& settings) {
+  /// In an empty folder.
+  ProcessCommand process_in(const std::string& folder, const std::vector<std::string>& words) const {
     std::error_code problem;
     files::remove_all(folder, problem);
     if (!problem) files::create_directories(folder, problem);
     if (problem) throw_user_error({kWho, "folder", folder, "be writable", problem.message()});
-    const ProcessEnd end = run_timed(words, folder, kRunLog, study_.time_limit);
+    return {words, folder, kRunLog, study_.time_limit};
+  }
+
+  /// Keeps the record of a run that has ended; nothing where it was interrupted.
+  std::optional<RunRecord> keep_record(ProcessEnd end, const std::string& folder,
+                                       const std::string& settings) const {
     if (end.how == ProcessEnd::How::interrupted) return std::nullopt;
+    if (study_.launcher.is_srun()) end.core = end.wall * study_.ranks;
     RunRecord record = record_of(end, (files::path(folder) / kRunLog).string(), study_.time_limit, settings);
     write_record(folder, record);
     return record;
@@ -170,7 +180,8 @@ class Runner {
     if (record) return;
     fmt::print("preparing: ");
     std::fflush(stdout);
-    record = execute(folder, command(study_.preparation->script, study_.preparation->variables), settings);
+    const std::vector<std::string> words = command(study_.preparation->script, study_.preparation->variables);
+    record = keep_record(run_timed(process_in(folder, words)), folder, settings);
     if (!record) return;  // interrupted
     fmt::print("{}\n", duration_text(record->wall));
     if (!has_results(*record))
@@ -178,33 +189,66 @@ class Runner {
           {study_.file, "[prepare]", record->reason, "finish", "its log is " + folder + "/" + kRunLog});
   }
 
-  void run_case(std::size_t number) {
+  /// In the order of the study; several at once begin with the finest, which takes longest.
+  void run_cases() {
+    std::vector<std::size_t> waiting(cases_.size());
+    std::iota(waiting.begin(), waiting.end(), std::size_t{0});
+    if (at_once_ > 1) {
+      std::stable_partition(waiting.begin(), waiting.end(),
+                            [&](std::size_t number) { return cases_[number].is_reference; });
+      fmt::print("{}, up to {} at once\n", count_text(static_cast<std::int64_t>(cases_.size()), "run"),
+                 at_once_);
+      setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 0);  // each mpirun would take the same first cores
+    }
+    std::reverse(waiting.begin(), waiting.end());
+    TimedProcesses processes;
+    while (true) {
+      while (static_cast<int>(processes.running()) < at_once_ && !waiting.empty() &&
+             SignalWatch::received() == 0) {
+        begin_case(waiting.back(), processes);
+        waiting.pop_back();
+      }
+      if (processes.running() == 0) return;
+      const auto [number, end] = processes.wait_for_one();
+      end_case(number, end);
+    }
+  }
+
+  /// Takes up a run that is there, or starts it.
+  void begin_case(std::size_t number, TimedProcesses& processes) {
     const StudyCase& run = cases_[number];
     const std::string folder = folder_of(run);
-    const std::string settings = settings_of(variables_of(run), script_);
-    std::optional<RunRecord> record = done_before(folder, settings);
-    const bool is_new = !record;
-    if (is_new) {
-      fmt::print("[{}/{}] {}: ", number + 1, cases_.size(), variables_text(run.swept));
-      std::fflush(stdout);
-      record = execute(folder, command(study_.script, variables_of(run)), settings);
-      if (!record) {
-        fmt::print("interrupted\n");
-        return;
-      }
+    if (const auto record = done_before(folder, settings_of(variables_of(run), script_))) {
+      take_up(number, *record);
+      return;
     }
-    StudyRow row{run, *record, {}, {}, {}, false};
-    if (has_results(*record)) {
-      try {
-        read_values(folder, row);
-      } catch (const UserError&) {
-        if (is_new) fmt::print("{}\n", duration_text(record->wall));
-        throw;
-      }
+    if (at_once_ == 1) tell_name(number);
+    processes.start(number, process_in(folder, command(study_.script, variables_of(run))));
+  }
+
+  void end_case(std::size_t number, const ProcessEnd& end) {
+    const std::string folder = folder_of(cases_[number]);
+    const auto record = keep_record(end, folder, settings_of(variables_of(cases_[number]), script_));
+    if (at_once_ > 1) tell_name(number);
+    if (!record) {
+      fmt::print("interrupted\n");
+      return;
     }
-    table_.add(std::move(row));
+    fmt::print("{}", duration_text(record->wall));
+    try {
+      tell_result(take_up(number, *record));
+    } catch (const UserError&) {
+      fmt::print("\n");
+      throw;
+    }
+  }
+
+  const StudyRow& take_up(std::size_t number, const RunRecord& record) {
+    StudyRow row{number, cases_[number], record, {}, {}, {}, false};
+    if (has_results(record)) read_values(folder_of(row.run), row);
+    const StudyRow& added = table_.add(std::move(row));
     table_.write_csv((out_ / "study.csv").string());
-    if (is_new) tell(table_.rows().back());
+    return added;
   }
 
   void require_file(const StudyQuantity& quantity, const std::string& folder) const {
@@ -244,8 +288,12 @@ class Runner {
     has_values_ = true;
   }
 
-  static void tell(const StudyRow& row) {
-    fmt::print("{}", duration_text(row.record.wall));
+  void tell_name(std::size_t number) const {
+    fmt::print("[{}/{}] {}: ", number + 1, cases_.size(), variables_text(cases_[number].swept));
+    std::fflush(stdout);
+  }
+
+  static void tell_result(const StudyRow& row) {
     if (row.record.status != RunRecord::Status::finished)
       fmt::print(", {}: {}", to_string(row.record.status), row.record.reason);
     else if (row.error && !row.run.is_reference)
@@ -265,17 +313,26 @@ class Runner {
     std::string names;
     for (const std::string& name : swept_names(study_)) names += (names.empty() ? "" : ",") + name;
     const std::string figure = (out_ / "study.png").string();
-    make_figure("accuracy_and_time.py",
-                {(out_ / "study.csv").string(), "--variables", names, "--time",
-                 settings_.time == StudyTime::wall ? "wall" : "core", "--within",
-                 fmt::format("{}", study_.within), "--title", study_.title, "--output", figure},
-                kWho);
+    std::vector<std::string> words{(out_ / "study.csv").string(),
+                                   "--variables",
+                                   names,
+                                   "--time",
+                                   settings_.time == StudyTime::wall ? "wall" : "core",
+                                   "--within",
+                                   fmt::format("{}", study_.within),
+                                   "--title",
+                                   study_.title,
+                                   "--output",
+                                   figure};
+    if (study_.extrapolate) words.insert(words.end(), {"--extrapolated", study_.extrapolate->variable});
+    make_figure("accuracy_and_time.py", words, kWho);
     fmt::print("{}\n", figure);
   }
 
   const Study& study_;
   const StudyRunSettings& settings_;
   std::vector<StudyCase> cases_;
+  int at_once_;
   StudyTable table_;
   files::path out_;
   std::vector<std::string> first_words_;

@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/record_table.h"
+#include "suffuse/analysis/study_extrapolation.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/safe_file.h"
 
@@ -47,10 +48,15 @@ std::string aligned(const std::vector<Cells>& lines, std::size_t texts) {
 
 }  // namespace
 
-void StudyTable::add(StudyRow row) {
+const StudyRow& StudyTable::add(StudyRow row) {
   row.values.resize(study_.quantities.size());
-  rows_.push_back(std::move(row));
+  const auto after =
+      std::upper_bound(rows_.begin(), rows_.end(), row.place,
+                       [](std::size_t place, const StudyRow& other) { return place < other.place; });
+  const auto at = after - rows_.begin();
+  rows_.insert(after, std::move(row));
   work_out_errors();
+  return rows_[static_cast<std::size_t>(at)];
 }
 
 bool StudyTable::none_finished() const {
@@ -167,6 +173,28 @@ std::string StudyTable::notes_text() const {
   return text;
 }
 
+/// A line a group of runs and quantity.
+std::string StudyTable::extrapolated_text() const {
+  const std::vector<StudyExtrapolation> groups = extrapolations(study_, rows_);
+  if (groups.empty()) return "";
+  std::vector<Cells> lines;
+  for (const StudyExtrapolation& group : groups)
+    for (std::size_t k = 0; k < study_.quantities.size(); ++k) {
+      const GridConvergence& found = group.of_quantities[k];
+      Cells& cells = lines.emplace_back();
+      for (const auto& [name, value] : rows_[group.rows.front()].run.swept)
+        cells.push_back(name == study_.extrapolate->variable ? group.resolutions : value);
+      cells.push_back(study_.quantities[k].name);
+      cells.push_back(to_text(found));
+      const std::optional<double> target = target_of(k);
+      if (found.value && target && *target != 0 && !study_.quantities[k].by_finest)
+        cells.push_back(fmt::format("error {:+.2g} ± {:.2g} %", 100 * relative_error(*found.value, *target),
+                                    100 * *found.error_bar / std::abs(*target)));
+    }
+  return fmt::format("extrapolated by {}, its bar as wide as the finest run's grid convergence index:\n{}",
+                     study_.extrapolate->variable, aligned(lines, swept_names(study_).size() + 3));
+}
+
 std::string StudyTable::text() const {
   const bool by_wall = time_ == StudyTime::wall;
   std::string text = finished_text();
@@ -176,14 +204,15 @@ std::string StudyTable::text() const {
   if (std::any_of(rows_.begin(), rows_.end(),
                   [](const StudyRow& row) { return row.record.status == RunRecord::Status::unsteady; }))
     text += "u: not steady yet; takes no part, nor is it a reference\n";
+  text += extrapolated_text();
   text += failed_text();
   text += notes_text();
   double other = 0;
   for (const StudyRow& row : rows_) other = std::max(other, row.record.other_cores);
   if (other > kOtherLoad && by_wall)
     text += fmt::format(
-        "note: other programs kept up to {:.1f} cores busy; wall times suffer from that, --time core less\n",
-        other);
+        "note: {} kept up to {:.1f} cores busy; wall times suffer from that, --time core less\n",
+        several_at_once_ ? "runs beside each other, or other programs," : "other programs", other);
   return text;
 }
 
@@ -220,8 +249,10 @@ void StudyTable::write_csv(const std::string& path) const {
   line += "status,wall_s,core_s,other_cores";
   for (const StudyQuantity& quantity : study_.quantities)
     line += fmt::format(",{0},{0}_reference,{0}_error", csv_text(quantity.name));
-  file.write(line + ",error,front,is_reference,reason,notes\n");
-  for (const StudyRow& row : rows_) {
+  file.write(line + ",error,front,is_reference,reason,notes" + extrapolation_titles(study_) + '\n');
+  const std::vector<StudyExtrapolation> groups = extrapolations(study_, rows_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const StudyRow& row = rows_[i];
     line.clear();
     for (const auto& [name, value] : row.run.swept) line += csv_text(value) + ',';
     for (const auto& [name, value] : study_.fixed) line += csv_text(value) + ',';
@@ -231,9 +262,9 @@ void StudyTable::write_csv(const std::string& path) const {
       line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target_of(k), ""),
                           row.errors[k] ? fmt::format("{:.6g}", *row.errors[k]) : "");
     line +=
-        fmt::format(",{},{:d},{:d},{},{}\n", row.error ? fmt::format("{:.6g}", *row.error) : "", row.on_front,
+        fmt::format(",{},{:d},{:d},{},{}", row.error ? fmt::format("{:.6g}", *row.error) : "", row.on_front,
                     row.run.is_reference, csv_text(row.record.reason), csv_text(row.record.notes));
-    file.write(line);
+    file.write(line + extrapolation_cells(study_, groups, i) + '\n');
   }
   file.commit();
 }

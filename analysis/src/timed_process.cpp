@@ -27,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 10;  // seconds between SIGTERM and SIGKILL: `suffuse` ends its fluid step first
 constexpr auto kLook = std::chrono::milliseconds(2);
 
-double since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double now() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
 /// Seconds that all cores of the machine together have been busy since it started; 0 where it does not tell.
@@ -45,31 +45,31 @@ double seconds(const timeval& time) {
 }
 
 /// In the child: becomes the program. Returns only where it cannot.
-void become(const std::vector<std::string>& words, const std::string& folder, const std::string& log) {
+void become(const ProcessCommand& command) {
   setpgid(0, 0);  // so that all that it starts can be ended with it
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGTERM);  // if the study is killed, no run stays behind in its folder
 #endif
-  if (chdir(folder.c_str()) != 0) return;
-  const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (chdir(command.folder.c_str()) != 0) return;
+  const int file = open(command.log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   const int nothing = open("/dev/null", O_RDONLY);
   if (file < 0 || nothing < 0) return;
   dup2(nothing, STDIN_FILENO);
   dup2(file, STDOUT_FILENO);
   dup2(file, STDERR_FILENO);
   std::vector<char*> arguments;
-  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  for (const std::string& word : command.words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   execvp(arguments[0], arguments.data());
 }
 
 /// Starts the program; the pipe closes by itself once it has become it, and brings errno where it cannot.
-pid_t start(const std::vector<std::string>& words, const std::string& folder, const std::string& log) {
+pid_t start_process(const ProcessCommand& command) {
   int pipe_ends[2];
   if (pipe2(pipe_ends, O_CLOEXEC) != 0) return -1;
   const pid_t child = fork();
   if (child == 0) {
-    become(words, folder, log);
+    become(command);
     const int problem = errno;
     if (write(pipe_ends[1], &problem, sizeof problem) < 0) _exit(126);
     _exit(127);
@@ -80,42 +80,45 @@ pid_t start(const std::vector<std::string>& words, const std::string& folder, co
   close(pipe_ends[0]);
   if (!failed) return child;
   if (child > 0) waitpid(child, nullptr, 0);
-  throw_user_error({"suffuse-study", "program", words[0], "start", std::strerror(problem)});
-}
-
-/// Waits, and ends the child when its time is over or a signal has come.
-ProcessEnd::How wait_for(pid_t child, double limit, int& status, rusage& usage) {
-  const Clock::time_point begin = Clock::now();
-  ProcessEnd::How how = ProcessEnd::How::exited;
-  double asked = 0;
-  while (wait4(child, &status, WNOHANG, &usage) == 0) {
-    const double now = since(begin);
-    const bool over = limit > 0 && now > limit, interrupted = SignalWatch::received() != 0;
-    if (how == ProcessEnd::How::exited && (over || interrupted)) {
-      how = interrupted ? ProcessEnd::How::interrupted : ProcessEnd::How::too_long;
-      asked = now;
-      kill(-child, SIGTERM);
-    }
-    if (how != ProcessEnd::How::exited && now > asked + kPatience) kill(-child, SIGKILL);
-    std::this_thread::sleep_for(kLook);
-  }
-  return how;
+  throw_user_error({"suffuse-study", "program", command.words[0], "start", std::strerror(problem)});
 }
 
 }  // namespace
 
-ProcessEnd run_timed(const std::vector<std::string>& words, const std::string& folder, const std::string& log,
-                     double limit) {
-  const double busy_before = busy_seconds();
-  const Clock::time_point begin = Clock::now();
-  const pid_t child = start(words, folder, log);
+void TimedProcesses::start(std::size_t id, const ProcessCommand& command) {
+  Running one;
+  one.id = id;
+  one.limit = command.limit;
+  one.busy_before = busy_seconds();
+  one.begin = now();
+  one.process = start_process(command);
+  running_.push_back(one);
+}
+
+void TimedProcesses::ask_to_end(Running& one, ProcessEnd::How why) {
+  if (one.how != ProcessEnd::How::exited) return;
+  one.how = why;
+  one.asked = now();
+  kill(-one.process, SIGTERM);
+}
+
+std::optional<ProcessEnd> TimedProcesses::end_of(Running& one) {
+  siginfo_t ended{};
+  waitid(P_PID, static_cast<id_t>(one.process), &ended, WEXITED | WNOHANG | WNOWAIT);
+  if (ended.si_pid == 0) {
+    if (one.how != ProcessEnd::How::exited && now() > one.asked + kPatience) kill(-one.process, SIGKILL);
+    return std::nullopt;
+  }
+  kill(-one.process,
+       SIGKILL);  // what it may have left behind; until it is waited for its number stays its own
   int status = 0;
   rusage usage{};
+  wait4(one.process, &status, 0, &usage);
   ProcessEnd end;
-  end.how = wait_for(child, limit, status, usage);
-  end.wall = since(begin);
+  end.how = one.how;
+  end.wall = now() - one.begin;
   end.core = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  end.other_cores = std::max(0.0, busy_seconds() - busy_before - end.core) / end.wall;
+  end.other_cores = std::max(0.0, busy_seconds() - one.busy_before - end.core) / end.wall;
   if (end.how == ProcessEnd::How::exited && WIFSIGNALED(status)) {
     end.how = ProcessEnd::How::by_signal;
     end.code = WTERMSIG(status);
@@ -123,6 +126,32 @@ ProcessEnd run_timed(const std::vector<std::string>& words, const std::string& f
     end.code = WEXITSTATUS(status);
   }
   return end;
+}
+
+std::pair<std::size_t, ProcessEnd> TimedProcesses::wait_for_one() {
+  while (true) {
+    for (auto one = running_.begin(); one != running_.end(); ++one) {
+      if (SignalWatch::received() != 0) ask_to_end(*one, ProcessEnd::How::interrupted);
+      if (one->limit > 0 && now() > one->begin + one->limit) ask_to_end(*one, ProcessEnd::How::too_long);
+      const std::optional<ProcessEnd> end = end_of(*one);
+      if (!end) continue;
+      const std::size_t id = one->id;
+      running_.erase(one);
+      return {id, *end};
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+}
+
+TimedProcesses::~TimedProcesses() {
+  for (Running& one : running_) ask_to_end(one, ProcessEnd::How::interrupted);
+  while (!running_.empty()) wait_for_one();
+}
+
+ProcessEnd run_timed(const ProcessCommand& command) {
+  TimedProcesses alone;
+  alone.start(0, command);
+  return alone.wait_for_one().second;
 }
 
 }  // namespace suffuse::analysis

@@ -313,7 +313,10 @@ void LbmCommand::plan(ArgumentReader& reader) {
   const lbm::Decomposition parts = decomposition(low);
   const double time_step = port_->time_step();
   coupled.substeps = choose_substeps();
-  plan_run(lmp_, coupled, parts, low, *port_, time);
+  double looks = 1. / LbmRun::kCheckEvery;
+  for (const MonitorRequest& monitor : settings_.monitors)
+    looks = std::max(looks, std::min(1., lbm::Units(coupled.units).time_step() / monitor.every));
+  plan_run(lmp_, coupled, parts, low, *port_, time, looks);
   // As if there had been no plan.
   port_->set_time_step(time_step);
   if (simulation_ != nullptr) return;

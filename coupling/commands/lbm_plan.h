@@ -7,8 +7,10 @@ namespace suffuse::coupling {
 
 /// `lbm plan TIME`: what a run would cost. Times a few steps of a fluid of the same size and settings and a
 /// mapping of the grains as they are, and throws both away; grains are counted at the speed of this process's
-/// last run, or at that of a usual core. Nothing of the script's state changes. Collective.
+/// last run, or at that of a usual core. `looks`: how often a step monitors and guards look at all cells.
+/// Times are those on processors of one's own: without what other programs took from the trial. Nothing of
+/// the script's state changes. Collective.
 void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm::Decomposition& parts,
-              const Vec3& low, LiggghtsPort& port, double time);
+              const Vec3& low, LiggghtsPort& port, double time, double looks);
 
 }  // namespace suffuse::coupling

@@ -22,9 +22,8 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the time,
-/// and more often once a flow is near its limit.
-constexpr long kCheckEvery = 250, kCheckNearLimitEvery = 50;
+/// Fluid steps between looks of the guards once a flow is near its limit.
+constexpr long kCheckNearLimitEvery = 50;
 
 /// Share of the grains' volume that may lie in other grains: contacts of the softest grains that are of use
 /// stay well below.

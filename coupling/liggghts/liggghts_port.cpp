@@ -67,7 +67,8 @@ GrainArrays LiggghtsPort::grains() {
   const auto* atom = lmp_->atom;
   fix_ = find_force_fix(lmp_);
   keep_memory();
-  fix_->update_ghost_velocities();
+  // Before anything has been run there are no ghosts, nor LIGGGHTS's lists of whom to tell.
+  if (lmp_->update->first_update != 0) fix_->update_ghost_velocities();
   GrainArrays arrays;
   all_grains_ = fix_->igroup == 0;
   const int all = atom->nlocal + atom->nghost;

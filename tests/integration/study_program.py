@@ -3,7 +3,7 @@
 
 `suffuse-study` on the tank of 05_settling_sphere, three cells a diameter: runs of less than a second, one of which is too fast for a
 lattice fluid and stops. Interrupted in a run of minutes, resumed without repeating what has ended, with another quantity; a time
-limit; two ranks after a run that prepares; and what people get wrong.
+limit; two ranks after a run that prepares; three runs at once by a launcher; and what people get wrong.
 """
 import argparse
 import csv
@@ -161,6 +161,74 @@ def check_ranks(study, mpirun):
     check("2 runs, 0 of them done" in study.must_run("two.toml", "--ranks", 2, "--out", "two", "--dry-run", "--resume"), "a changed script is another run")
 
 
+# Starts one rank once all of the first `together` are there; what stands in `asleep` sleeps instead, in two processes.
+LAUNCHER = """#!/bin/sh
+echo $1 >> "$(dirname $0)/ranks"
+echo $$ > "$(dirname $0)/started.$$"
+for look in $(seq 200); do [ $(ls $(dirname $0)/started.* | wc -l) -ge {together} ] && break; sleep 0.05; done
+[ $look -lt 200 ] || exit 9
+shift
+if [ -e $(dirname $0)/asleep ]; then sleep 100 & sleep 100; fi
+exec "$@"
+"""
+
+
+def in_folder(folder):
+    """Living processes at work in a folder or below it."""
+    found = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if (process / "cwd").resolve().is_relative_to(folder):
+                found.append(process.name)
+        except OSError:
+            pass
+    return found
+
+
+def require_none_in(folder):
+    deadline = time.monotonic() + 2  # killed, a process still has to be taken down by the system
+    while in_folder(folder):
+        check(time.monotonic() < deadline, f"processes are left in {folder}: {in_folder(folder)}")
+        time.sleep(0.05)
+
+
+def check_several_at_once(study):
+    """Three of four at once, by a launcher that lets none begin before three have; one fails. Ended by SIGTERM, none is left."""
+    study.write("in.tiny", TINY)
+    study.write("starts", LAUNCHER.format(together=3))
+    (study.folder / "starts").chmod(0o755)
+    text = TINY_STUDY.replace("[1, 2]", "[6, 1, 2, 4]").replace("[sweep]", 'launcher = "./starts {ranks}"\n[sweep]') + '[extrapolate]\nspacing = "value"\norder = 1\n'
+    file = study.write("several.toml", text)
+    out = study.must_run(file, "--out", "several", "--no-figure", "--cores", 3)
+    rows = [(row["value"], row["status"], row["answer"]) for row in study.rows("several")]
+    check(rows == [("6", "failed", ""), ("1", "finished", "1"), ("2", "finished", "2"), ("4", "finished", "4")], f"{rows}")
+    # The answer is the spacing itself: 0 without one, and the first-order index of the finest run is 1.25 times its answer.
+    limits = {(row["answer_convergence"], row["extrapolated_from"]) for row in study.rows("several")}
+    check(limits == {("", ""), ("converges", "1 2 4")}, f"{limits}")
+    finest = study.rows("several")[1]
+    check(abs(float(finest["answer_extrapolated"])) < 1e-12 and finest["answer_error_bar"] == "1.25" and finest["answer_order"] == "1", f"{finest}")
+    check("± 1.2 (order 1)" in out and "error -1e+02 ± 83 %" in out, out)
+    check("4 runs, up to 3 at once" in out and (study.folder / "ranks").read_text().split() == ["1"] * 4, out)
+
+    (study.folder / "asleep").touch()
+    study.write(file, text.replace("[6, 1, 2, 4]", "[6, 1, 2, 4, 1.1, 1.2, 1.3]"))
+    process = subprocess.Popen([study.program, file, "--out", "several", "--no-figure", "--cores", "2", "--resume"], cwd=study.folder, stdout=subprocess.PIPE, text=True)
+    deadline = time.monotonic() + 60
+    while len(in_folder(study.folder / "several")) < 6:  # two runs of a shell and two sleeps
+        check(time.monotonic() < deadline and process.poll() is None, "two runs at once do not begin")
+        time.sleep(0.05)
+    process.send_signal(signal.SIGTERM)
+    out, _ = process.communicate(timeout=60)
+    check(process.returncode == 143 and "interrupted: 4 of 7 runs are done" in out, f"{process.returncode}: {out}")
+    require_none_in(study.folder / "several")
+
+    # The same study with what only a run can tell wrong: the others are ended with it.
+    (study.folder / "asleep").unlink()
+    study.must_refuse([study.write("bad.toml", text.replace('"answer"', '"question"')), "--out", "bad", "--no-figure", "--cores", 3], "no row with quantity=question")
+    require_none_in(study.folder / "bad")
+    subprocess.run(["rm", "-r", study.folder / "bad"], check=True)
+
+
 def check_unsteady(study):
     """A run that says it is not steady yet has its numbers in the table and no place on the front."""
     study.write("in.tiny", TINY.replace('if "', 'if "${value} == 1" then "print \'lbm run: not yet steady after 0.1 s\'" "print \'note: on its way\'"\nif "'))
@@ -202,6 +270,12 @@ def check_mistakes(study):
     refuse(["value", "[prepare]"], old="[1, 2]", new='["{prepare}/sample"]')
     refuse(["design", "one_at_a_time"], old="[sweep]", new='design = "all"\n[sweep]')
     refuse(["--program", "no_such_program"], words=["--program", "no_such_program"])
+    refuse(["[extrapolate] cells", "one of both"], extra="[extrapolate]\norder = 2\n")
+    refuse(["[extrapolate] cells", "[sweep]"], extra='[extrapolate]\ncells = "other"\n')
+    refuse(["[extrapolate] spacing", "value = -1", "> 0"], old="[1, 2]", new="[-1, 2]", extra='[extrapolate]\nspacing = "value"\n')
+    refuse(["--cores", "hold a run", "2 ranks"], words=["--ranks", "2", "--cores", "1"])
+    refuse(["--launcher", "{ranks}"], words=["--launcher", "srun -n 1"])
+    refuse(["launcher", "/none", "can be run"], old="[sweep]", new='launcher = "./none {ranks}"\n[sweep]')
     refuse(["--time", "cpu", "wall"], words=["--time", "cpu"])
     refuse(["--retry-failed", "--resume"], words=["--retry-failed"])
     check(not (study.folder / "bad").exists(), "a mistake in the study leaves a folder")
@@ -224,6 +298,7 @@ def main():
         study = Study(pathlib.Path(options.study).resolve(), pathlib.Path(scratch).resolve())
         check("suffuse-study " in study.must_run("--version") and "--resume" in study.must_run("--help"), "--version, --help")
         check_mistakes(study)
+        check_several_at_once(study)
         check_unsteady(study)
         check_ranks(study, pathlib.Path(options.mpirun).resolve())
         check_study(study, python_with_figures() is not None)

@@ -8,6 +8,7 @@
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/study_cases.h"
+#include "suffuse/analysis/study_launcher.h"
 #include "suffuse/analysis/study_record.h"
 #include "suffuse/analysis/study_table.h"
 #include "suffuse/analysis/trade_off.h"
@@ -70,6 +71,35 @@ TEST_CASE("one at a time has the base and each value around it, no run twice") {
   CHECK(names_of(cases) == std::vector<std::string>{"a=1,b=x", "a=2,b=x", "a=1,b=y", "a=9,b=x"});
   CHECK(cases.back().is_reference);
   CHECK_FALSE(cases.front().is_reference);
+}
+
+TEST_CASE("a launcher says {ranks}, and is a program of PATH or of a folder") {
+  const StudyLauncher env("env  -u NONE-{ranks} {ranks}{ranks}", "/", "study", "launcher");
+  CHECK(env.words(12) == std::vector<std::string>{"env", "-u", "NONE-12", "1212"});
+  CHECK_FALSE(env.is_srun());
+  CHECK(StudyLauncher().words(1).empty());
+  CHECK(StudyLauncher().words(3).back() == "3");
+  CHECK_THROWS_AS(StudyLauncher("env -n 4", "/", "study", "launcher"), UserError);
+  CHECK_THROWS_AS(StudyLauncher("no_such_launcher {ranks}", "/", "study", "launcher"), UserError);
+  const Scratch scratch;
+  const std::string own = scratch.write("bin/srun", "");
+  CHECK_THROWS_AS(StudyLauncher("bin/srun {ranks}", scratch.path, "study", "launcher"), UserError);
+  files::permissions(own, files::perms::owner_all);
+  const StudyLauncher srun("bin/srun {ranks}", scratch.path, "study", "launcher");
+  CHECK(srun.words(2) == std::vector<std::string>{own, "2"});
+  CHECK(srun.is_srun());
+}
+
+TEST_CASE("rows stand in the order of the study, whichever run ends first") {
+  Study study;
+  study.quantities = {{"q", {}, 1.0, false, "", 0}};
+  StudyTable table(study, StudyTime::wall);
+  for (const std::size_t place : {2U, 0U, 1U}) {
+    StudyRow made = row(std::to_string(place), 1, 1, 1.0 + 0.1 * static_cast<double>(place));
+    made.place = place;
+    CHECK(table.add(std::move(made)).run.swept[0].second == std::to_string(place));
+  }
+  for (std::size_t place = 0; place < 3; ++place) CHECK(table.rows()[place].place == place);
 }
 
 TEST_CASE("several grids fill up what they leave out from the base, and need one for it") {

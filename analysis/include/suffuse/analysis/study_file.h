@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "suffuse/analysis/csv_cell.h"
+#include "suffuse/analysis/study_launcher.h"
 
 namespace suffuse::analysis {
 
@@ -15,9 +16,6 @@ using VariableValues = std::vector<std::pair<std::string, std::string>>;
 
 /// Values of some variables of which every combination is run.
 using SweepBlock = std::vector<std::pair<std::string, std::vector<std::string>>>;
-
-/// A value with every {study} or {prepare}, say, replaced by the folder that it stands for.
-std::string with_folder(std::string value, const std::string& placeholder, const std::string& folder);
 
 /// What is read from every run, and what it should be.
 struct StudyQuantity {
@@ -35,10 +33,18 @@ struct Preparation {
   VariableValues variables;
 };
 
+/// By which swept variable results are extrapolated to no spacing at all.
+struct StudyExtrapolationRule {
+  std::string variable;
+  bool counts_cells = true;  ///< a number of cells, else a spacing
+  double order = 2;          ///< of the method
+};
+
 /// What a study file asks for (docs/analysis/suffuse-study.md). Files are absolute.
 struct Study {
   std::string file, title, script;
   int ranks = 1;
+  StudyLauncher launcher;
   double time_limit = 0;       ///< seconds a run; 0: none
   double within = 0.03;        ///< the error that the study's last sentence asks for
   bool one_at_a_time = false;  ///< each variable by itself around `base`, instead of every combination
@@ -47,6 +53,7 @@ struct Study {
   VariableValues finest;  ///< swept variables of the run that is the reference; empty: none
   std::vector<StudyQuantity> quantities;
   std::optional<Preparation> preparation;
+  std::optional<StudyExtrapolationRule> extrapolate;
 };
 
 /// Reads and checks a study file; references that are cells of CSV files are looked up. Nothing is run.

@@ -15,6 +15,7 @@ enum class StudyTime { wall, core };
 
 /// A run of a study that has ended.
 struct StudyRow {
+  std::size_t place = 0;  ///< of its run in the study: rows stand in this order
   StudyCase run;
   RunRecord record;
   std::vector<std::optional<double>> values;  ///< of the study's quantities, in their order
@@ -26,10 +27,11 @@ struct StudyRow {
 /// The rows that have ended, with errors and Pareto's front.
 class StudyTable {
  public:
-  StudyTable(const Study& study, StudyTime time) : study_(study), time_(time) {}
+  StudyTable(const Study& study, StudyTime time, bool several_at_once = false)
+      : study_(study), time_(time), several_at_once_(several_at_once) {}
 
-  /// Takes the row up and works out the errors that it changes.
-  void add(StudyRow row);
+  /// Takes the row up and works out the errors that it changes. Gives the row with its errors.
+  const StudyRow& add(StudyRow row);
   std::size_t size() const { return rows_.size(); }
   const std::vector<StudyRow>& rows() const { return rows_; }
   bool none_finished() const;
@@ -57,9 +59,11 @@ class StudyTable {
   std::string finished_text() const;
   std::string failed_text() const;
   std::string notes_text() const;
+  std::string extrapolated_text() const;
 
   const Study& study_;
   StudyTime time_;
+  bool several_at_once_;
   std::vector<StudyRow> rows_;
 };
 
