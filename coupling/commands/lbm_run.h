@@ -47,7 +47,6 @@ class LbmRun {
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
   void check(long step);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
-  bool is_closed_for_water() const;
   std::string with_last_state(const std::string& reason) const;
   bool is_steady(double share);
   std::string details() const;
