@@ -15,6 +15,7 @@
 
 #include "hdf5_undo.h"
 #include "suffuse/common/collective_text.h"
+#include "suffuse/common/end_together.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse {
@@ -113,6 +114,23 @@ T get_scalar(hid_t file, const std::string& object, const std::string& name) {
 
 bool some_left_open = false;
 
+/// Has HDF5 failed on some rank? Where it has on some only, the others may wait for these in one of its own
+/// calls, for ever: then all are ended.
+bool any_failed(int failed, const std::string& path, MPI_Comm communicator) {
+  int any = 0;
+  MPI_Request all = MPI_REQUEST_NULL;
+  MPI_Iallreduce(&failed, &any, 1, MPI_INT, MPI_MAX, communicator, &all);
+  if (failed != 0)
+    end_unless_all_come(
+        all, 1,
+        fmt::format("suffuse: error: HDF5: file = {}, must be read or written by every rank; is "
+                    "the disk full, or has one rank a limit of its own (ulimit)?",
+                    path));
+  else
+    MPI_Wait(&all, MPI_STATUS_IGNORE);
+  return any != 0;
+}
+
 /// Takes blocks of the disk behind the file's end; 0, or why there are none. Where a file system cannot do
 /// that the room that it says to have counts.
 int no_room(const std::string& path, std::size_t bytes) {
@@ -136,6 +154,7 @@ struct Hdf5File::Handle {
   MPI_Comm communicator = MPI_COMM_NULL;
   bool reads = false;
   bool noted = false;
+  bool spoilt = false;  ///< a write has failed on some rank
 };
 
 /// A failure on one rank is the same UserError on all: what follows is collective.
@@ -146,8 +165,8 @@ void Hdf5File::together(const std::function<void()>& work) const {
   } catch (const std::runtime_error&) {  // of ensure and Id; the sentence below says what a person can do
     failed = 1;
   }
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, handle_->communicator);
-  if (failed == 0) return;
+  if (!any_failed(failed, path_, handle_->communicator)) return;
+  handle_->spoilt = !handle_->reads;
   if (handle_->reads)
     throw_user_error(
         {"HDF5", "file", path_, "hold what is read from it", "it may be damaged or of another kind"});
@@ -246,9 +265,7 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Gr
     handle_->file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
   else
     handle_->file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  int failed = handle_->file < 0 ? 1 : 0;
-  MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, communicator);
-  if (failed != 0)
+  if (any_failed(handle_->file < 0 ? 1 : 0, path, communicator))
     throw_user_error(
         {"HDF5", "file", path,
          mode == Mode::read ? "be a readable HDF5 file" : "be writable, and HDF5 where it is continued",
@@ -257,7 +274,10 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Gr
 }
 
 Hdf5File::~Hdf5File() {
-  if (handle_->file >= 0 && H5Fclose(handle_->file) < 0) some_left_open = true;
+  if (handle_->file < 0) return;
+  // What the disk of one rank did not take closing would write again, and fail on that rank alone: the others
+  // would wait for it within HDF5.
+  if (handle_->spoilt || H5Fclose(handle_->file) < 0) some_left_open = true;
 }
 
 bool Hdf5File::exists(const std::string& object) const {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -116,6 +117,12 @@ suffuse::GrainLoop take_grain_loop(std::vector<char*>& arguments) {
   return suffuse::GrainLoop::vector;
 }
 
+/// How a script has ended.
+struct End {
+  int code = 0;
+  std::string line;  ///< last words, the same on all ranks but for a fault that one alone has met
+};
+
 /// Last words on the terminal and in the log, once for all ranks.
 void tell_the_end(const std::string& line, const LAMMPS_NS::LAMMPS* lmp, int rank) {
   std::fflush(nullptr);
@@ -128,7 +135,7 @@ void tell_the_end(const std::string& line, const LAMMPS_NS::LAMMPS* lmp, int ran
 }
 
 /// Runs the script; LIGGGHTS ends the process itself on errors of its own.
-int run_script(int argc, char** argv, int rank) {
+End run_script(int argc, char** argv, int rank) {
   LAMMPS_NS::LAMMPS* lmp = nullptr;
   try {
     suffuse::on_first_rank("suffuse", MPI_COMM_WORLD, [&] {
@@ -147,24 +154,26 @@ int run_script(int argc, char** argv, int rank) {
     lmp->input->file();
     suffuse::coupling::LbmCommand::remove_from(lmp);
     delete lmp;
-    return 0;
+    return {};
   } catch (const suffuse::LostRun& end) {
-    tell_the_end(fmt::format("suffuse: error: {}", end.what()), lmp, rank);
-    return suffuse::kLostRunExitCode;
+    const std::string line = fmt::format("suffuse: error: {}", end.what());
+    tell_the_end(line, lmp, rank);
+    return {suffuse::kLostRunExitCode, line};
   } catch (const suffuse::UserError& problem) {
     // Thrown on all ranks alike; the half-built LIGGGHTS is left to the operating system.
-    tell_the_end(fmt::format("suffuse: error: {}", problem.what()), lmp, rank);
-    return 1;
+    const std::string line = fmt::format("suffuse: error: {}", problem.what());
+    tell_the_end(line, lmp, rank);
+    return {1, line};
   } catch (const suffuse::coupling::Interrupted& end) {
     tell_the_end(end.what(), lmp, rank);
     suffuse::coupling::LbmCommand::remove_from(lmp);
     delete lmp;  // closes dumps and the log
-    return end.exit_code();
+    return {end.exit_code(), end.what()};
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "suffuse: error: rank {} is out of memory; use a larger spacing or more machines\n",
                rank);
     MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
+    return {1, ""};
   } catch (const std::exception& failure) {
     if (const std::string refusal = suffuse::refusal_of_the_machine(failure); !refusal.empty()) {
       fmt::print(stderr, "suffuse: error: {}\n", refusal);
@@ -172,13 +181,14 @@ int run_script(int argc, char** argv, int rank) {
     }
     fmt::print(stderr, "suffuse: internal error on rank {}: {}\n", rank, failure.what());
     MPI_Abort(MPI_COMM_WORLD, 2);
-    return 2;
+    return {2, ""};
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is then an error of the write, which is said
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -191,8 +201,10 @@ int main(int argc, char** argv) {
   if (own_option) {
     if (rank == 0) answered_without_a_script(argc, argv);
   } else {
-    code = run_script(argc, argv, rank);
-    if (code != 0) suffuse::end_together(ends, code);
+    const End end = run_script(argc, argv, rank);
+    code = end.code;
+    // Rank 0 has said its own words.
+    if (code != 0) suffuse::end_together(ends, code, rank == 0 ? "" : end.line);
   }
   if (suffuse::Hdf5File::left_open()) {
     std::fflush(nullptr);

@@ -122,17 +122,8 @@ GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   if (solid_volume_ > 0)
     now.overlap = simulation_.overlap() * std::pow(simulation_.units().spacing(), 3) / solid_volume_;
   now.lost_grains = census_.lost();
-  if (is_closed_for_water()) now.stored_mass = fluid.stored_mass;
-  now.mass_at_rest =
-      static_cast<double>(lbm::CellBox{{0, 0, 0}, simulation_.fluid().decomposition().cells()}.volume());
+  read_budgets(now, simulation_);
   return now;
-}
-
-bool LbmRun::is_closed_for_water() const {
-  const lbm::FaceConditions& faces = simulation_.fluid().settings().faces;
-  return std::none_of(faces.begin(), faces.end(), [](const lbm::FaceCondition& face) {
-    return face.kind == lbm::FaceKind::pressure || face.kind == lbm::FaceKind::velocity;
-  });
 }
 
 /// Where to go on from after a run that a guard has ended.

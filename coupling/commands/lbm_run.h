@@ -52,7 +52,6 @@ class LbmRun {
   void follow_effects();
   void report_effects(double wall);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
-  bool is_closed_for_water() const;
   std::string with_last_state(const std::string& reason) const;
   bool is_steady(double share);
   std::string details() const;

@@ -336,10 +336,12 @@ void read_guard(ArgumentReader& reader, LbmSettings& settings) {
       limits.overlap = positive_within(reader, "overlap", 0, most);
     } else if (reader.keyword("mass")) {
       limits.mass = positive_within(reader, "mass", 0, most);
+    } else if (reader.keyword("momentum")) {
+      limits.momentum = positive_within(reader, "momentum", 0, most);
     } else if (reader.keyword("lost")) {
       limits.stop_if_lost = choose<bool>(reader, "lost", {{"stop", true}, {"warn", false}});
     } else {
-      reader.unknown(reader.word("keyword"), "density, motion, overlap, mass, lost");
+      reader.unknown(reader.word("keyword"), "density, motion, overlap, mass, momentum, lost");
     }
   }
   settings.guards = limits;

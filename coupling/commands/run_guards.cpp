@@ -44,7 +44,47 @@ std::string text_of(const Vec3& at) {
   return fmt::format("x y z = {:.4g} {:.4g} {:.4g} m", at[0], at[1], at[2]);
 }
 
+bool is_closed_for_water(const lbm::FaceConditions& faces) {
+  return std::none_of(faces.begin(), faces.end(), [](const lbm::FaceCondition& face) {
+    return face.kind == lbm::FaceKind::pressure || face.kind == lbm::FaceKind::velocity;
+  });
+}
+
+/// 1 for each axis along which faces and walls leave the water its momentum, else 0: periodic faces do, and
+/// mirrors along themselves.
+Vec3 kept_axes(const CoupledSimulation& simulation) {
+  Vec3 kept = Vec3::Ones();
+  const lbm::FaceConditions& faces = simulation.fluid().settings().faces;
+  for (int f = 0; f < lbm::kFaces; ++f) {
+    const lbm::FaceKind kind = faces[static_cast<std::size_t>(f)].kind;
+    if (kind == lbm::FaceKind::free_slip)
+      kept[axis_of(static_cast<lbm::Face>(f))] = 0;
+    else if (kind != lbm::FaceKind::periodic)
+      kept.setZero();
+  }
+  return kept;
+}
+
 }  // namespace
+
+void read_budgets(GuardReading& reading, const CoupledSimulation& simulation) {
+  const lbm::Decomposition& d = simulation.fluid().decomposition();
+  const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, d.cells()}.volume());
+  reading.mass_at_rest = cells;
+  if (is_closed_for_water(simulation.fluid().settings().faces))
+    reading.stored_mass = reading.fluid.stored_mass;
+  const double walls = simulation.acting_walls().empty() && !simulation.fluid().has_closed_cells() ? 0 : 1;
+  const MomentumLedger& ledger = simulation.ledger();
+  std::array<double, 5> sums{ledger.grains[0], ledger.grains[1], ledger.grains[2], ledger.grains_magnitude,
+                             walls};
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 5, MPI_DOUBLE, MPI_SUM, d.communicator());
+  const Vec3 kept = sums[4] > 0 ? Vec3(Vec3::Zero()) : kept_axes(simulation);
+  if (kept.isZero(0) || simulation.method() != nullptr) return;
+  const Vec3 given = cells * ledger.force - Vec3(sums[0], sums[1], sums[2]);
+  reading.momentum = {kept.cwiseProduct(reading.fluid.stored_momentum.sum - given),
+                      cells * ledger.force_magnitude + sums[3], reading.fluid.stored_momentum.magnitude,
+                      ledger.steps_unknown};
+}
 
 std::vector<RunGuards::Finding> RunGuards::findings(const GuardReading& reading) {
   const lbm::Units& units = simulation_.units();
@@ -75,7 +115,22 @@ std::vector<RunGuards::Finding> RunGuards::findings(const GuardReading& reading)
                    fmt::format("stay within a share of {:g}: no face lets any in", limits_.mass),
                    "run with `precision double`; if it is, please report the scene"});
   }
+  if (reading.momentum) all.push_back(momentum_finding(*reading.momentum));
   return all;
+}
+
+/// Since the first look, or the first after steps whose loads nobody formed.
+RunGuards::Finding RunGuards::momentum_finding(const MomentumBudget& now) {
+  if (!first_momentum_ || first_momentum_->steps_unknown != now.steps_unknown) first_momentum_ = now;
+  const MomentumBudget& first = *first_momentum_;
+  const double scale = now.handed_over - first.handed_over + first.stored + now.stored;
+  const double missing = scale > 0 ? (now.surplus - first.surplus).norm() / scale : 0;
+  return {"momentum of water and grains",
+          missing,
+          limits_.momentum,
+          fmt::format("changed by a share of {:.3g} of what was handed over", missing),
+          fmt::format("stay within a share of {:g}: no face takes any up", limits_.momentum),
+          "run with `precision double`; if it is, please report the scene"};
 }
 
 /// Of what has just been found too large: a second look, which a run that goes well never takes.
@@ -110,9 +165,7 @@ std::string RunGuards::place_of(const std::string& name) const {
 std::vector<std::string> RunGuards::look(const GuardReading& reading) {
   const double time = simulation_.time_si();
   lbm::require_stable(reading.fluid, simulation_.units(), time, reading.mach_limit, kWho);
-  if (!std::isfinite(reading.fastest_grain))
-    throw_lost_run({kWho, fmt::format("velocity of a grain at {:.5g} s", time), "not a number", "stay finite",
-                    "take a smaller DEM step (`dem_timestep`), or see what forces the script adds"});
+  if (!std::isfinite(reading.fastest_grain)) throw_lost_grain(kWho, time);
   std::vector<std::string> lines;
   for (const Finding& finding : findings(reading)) {
     if (finding.value > finding.limit)

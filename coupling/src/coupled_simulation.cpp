@@ -152,6 +152,11 @@ VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Un
           with_coefficients(settings).solids.cells};
 }
 
+void throw_lost_grain(const std::string& who, double time_si) {
+  throw_lost_run({who, fmt::format("motion of a grain at {:.5g} s", time_si), "not a number", "stay finite",
+                  "take a smaller DEM step (`dem_timestep`), or see what forces the script adds"});
+}
+
 CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm::Decomposition& decomposition,
                                      const Vec3& origin, ParticlePort& grains)
     : settings_(with_coefficients(settings)),
@@ -309,12 +314,14 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
+  double finite = 0;  // 0 times a number, unless it is none
   for (int n = 0; n < grains.total; ++n) {
     LatticeSphere& sphere = spheres_[static_cast<std::size_t>(n)];
     for (int a = 0; a < 3; ++a) {
       sphere.position[a] = (grains.position[3 * n + a] - origin_[a]) * length;
       sphere.velocity[a] = grains.velocity[3 * n + a] * speed;
       sphere.angular_velocity[a] = grains.angular_velocity[3 * n + a] * turn;
+      finite += 0 * (sphere.position[a] + sphere.velocity[a] + sphere.angular_velocity[a]);
     }
     sphere.radius = grains.radius[n] * length;
     for (double& spin : sphere.angular_velocity) spin *= share_of_arms(sphere.radius);
@@ -322,6 +329,7 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
     sphere.coefficient = settings_.solids.automatic_coefficient ? law_.of_sphere(2 * sphere.radius)
                                                                 : settings_.solids.cells.coefficient;
   }
+  spheres_finite_ = finite == 0;
 }
 
 /// Exchange and lead of each sphere's cells on all ranks, summed at its owner, in SI.
@@ -395,9 +403,12 @@ void CoupledSimulation::require_finite(const GrainArrays& grains) const {
   double sum = 0;
   for (std::size_t n = 0; n < 3 * static_cast<std::size_t>(grains.owned); ++n)
     sum += 0 * force_[n] + 0 * torque_[n];
-  int broken = sum == 0 ? 0 : 1;
+  enum { fine, water, grain };
+  int broken = sum == 0 ? fine : water;
+  if (!spheres_finite_) broken = grain;
   MPI_Allreduce(MPI_IN_PLACE, &broken, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
-  if (broken == 0) return;
+  if (broken == fine) return;
+  if (broken == grain) throw_lost_grain("lbm run", time_si());
   lbm::FluidExtremes extremes;
   extremes.finite = false;
   lbm::require_stable(extremes, units_, time_si(), 1, "lbm run");
@@ -428,13 +439,24 @@ void CoupledSimulation::refresh_loads() {
   hand_loads_over();
 }
 
-/// From the sums of `mapping_`.
-void CoupledSimulation::hand_loads_over() {
+/// What the last step gave to the grains that this rank owns, summed over all ranks that hold cells of them.
+void CoupledSimulation::keep_ledger(int owned) {
+  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0];
+  for (int n = 0; n < owned; ++n) {
+    const Vec3 impulse = vector_at(force_.data(), n) / newton;
+    ledger_.grains += impulse;
+    ledger_.grains_magnitude += impulse.norm();
+  }
+}
+
+/// From the sums of `mapping_`; this rank's grains.
+int CoupledSimulation::hand_loads_over() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
   require_finite(grains);
   hand_over(grains);
+  return grains.owned;
 }
 
 void CoupledSimulation::step_fluid(bool loads_wanted) {
@@ -491,7 +513,7 @@ void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
   loads_step_ = fluid_.steps();
 }
 
-void CoupledSimulation::for_each_point(const lbm::Fluid::PointVisitor& visit) const {
+lbm::StoredMomentum CoupledSimulation::for_each_point(const lbm::Fluid::PointVisitor& visit) const {
   if (!method_) return fluid_.for_each_point(visit);
   lbm::for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
     const WaterCell water = method_->at({x, y, z});
@@ -499,6 +521,7 @@ void CoupledSimulation::for_each_point(const lbm::Fluid::PointVisitor& visit) co
                                 units_.velocity_to_lattice(water.flux)};
     visit({x, y, z}, point, water.solid_fraction);
   });
+  return {};
 }
 
 double CoupledSimulation::solid_fraction(const lbm::Index3& cell) const {
@@ -511,7 +534,7 @@ Vec3 CoupledSimulation::solid_flux(const lbm::Index3& cell) const {
 
 lbm::FluidExtremes CoupledSimulation::extremes() const {
   if (!method_) return fluid_.extremes();
-  return {units_.velocity_to_lattice(method_->largest_speed()), 1, 1, method_->is_finite()};
+  return {units_.velocity_to_lattice(method_->largest_speed()), 1, 1, method_->is_finite(), 0, {}};
 }
 
 void CoupledSimulation::require_stable(const lbm::FluidExtremes& extremes, double largest_mach,
@@ -536,7 +559,12 @@ void CoupledSimulation::step(bool loads_asked_for) {
   else
     step_fluid(loads_wanted);
   stepped_ = true;
-  if (loads_wanted) hand_loads_over();
+  ledger_.force += fluid_.force();
+  ledger_.force_magnitude += fluid_.force().norm();
+  if (loads_wanted)
+    keep_ledger(hand_loads_over());
+  else
+    ++ledger_.steps_unknown;
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);
 }

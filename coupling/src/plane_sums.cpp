@@ -16,9 +16,9 @@ struct Sums {
 };
 constexpr int kSums = sizeof(Sums) / sizeof(double);
 
-/// Over all cells: mass, twice the kinetic energy, deviation from rest.
+/// Over all cells: mass, twice the kinetic energy, deviation from rest, momentum of the populations.
 struct Totals {
-  double mass, energy, stored;
+  double mass, energy, stored, momentum[3], momentum_magnitude;
 };
 static_assert(sizeof(Totals) <= sizeof(Sums));
 
@@ -33,7 +33,7 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   Totals totals{};
   double extremes[4] = {0, -1e300, -1e300,
                         0};  // squared speed, density, -density, anything that is no number
-  simulation.for_each_point(
+  const lbm::StoredMomentum stored = simulation.for_each_point(
       [&](const lbm::Index3& cell, const lbm::FluidPoint& point, double solid_fraction) {
         const double open = 1 - solid_fraction;
         const Vec3 solid = simulation.solid_flux(cell);
@@ -61,6 +61,8 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
         extremes[1] = std::max(extremes[1], density);
         extremes[2] = std::max(extremes[2], -density);
       });
+  std::copy_n(stored.sum.data(), 3, totals.momentum);
+  totals.momentum_magnitude = stored.magnitude;
   std::memcpy(&sums.back(), &totals, sizeof totals);  // they travel with the planes
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), kSums * static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM,
                 d.communicator());
@@ -85,7 +87,13 @@ PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
   planes.fluid_mass = cell_mass * totals.mass;
   planes.stored_mass = cell_mass * totals.stored;
   planes.fluid_kinetic_energy = 0.5 * cell_mass * totals.energy * std::pow(units.velocity_to_si(1.), 2);
-  planes.extremes = {std::sqrt(extremes[0]), -extremes[2], extremes[1], extremes[3] == 0, totals.stored};
+  planes.extremes = {
+      std::sqrt(extremes[0]),
+      -extremes[2],
+      extremes[1],
+      extremes[3] == 0,
+      totals.stored,
+      {Vec3(totals.momentum[0], totals.momentum[1], totals.momentum[2]), totals.momentum_magnitude}};
   return planes;
 }
 

@@ -30,6 +30,44 @@ double equilibrium_deviation(int i, const FluidPoint& point, const Vec3& force, 
           1.5 * c.dot(force));
 }
 
+void add_to(StoredMomentum& stored, const FluidCoreBase::RowMoments& row, int cells, const Vec3& force) {
+  for (int a = 0; a < 3; ++a) {
+    double sum = 0, magnitude = 0;
+    for (std::size_t x = 0; x < static_cast<std::size_t>(cells); ++x) {
+      const double value = row.momentum[a][x] - 0.5 * force[a];
+      sum += value;
+      magnitude += std::abs(value);
+    }
+    stored.sum[a] += sum;
+    stored.magnitude += magnitude;
+  }
+}
+
+/// All cells of a rank, local numbers; a solid one is at rest.
+template <class Visit>
+StoredMomentum visit_points(const FluidCoreBase& core, Visit&& visit) {
+  const CellBox& box = core.decomposition.local_box();
+  StoredMomentum stored;
+  FluidCoreBase::RowMoments row;
+  for (int z = 0; z < box.extent(2); ++z)
+    for (int y = 0; y < box.extent(1); ++y) {
+      core.moments_of_row(y, z, row);
+      add_to(stored, row, box.extent(0), core.force);
+      for (int x = 0; x < box.extent(0); ++x) {
+        const auto n = static_cast<std::size_t>(x);
+        if (core.is_solid(x, y, z)) {
+          visit(x, y, z, true, FluidPoint{}, 1.);
+          continue;
+        }
+        const PartialSolidCell solids = core.partial_solid(x, y, z);
+        const Vec3 momentum(row.momentum[0][n], row.momentum[1][n], row.momentum[2][n]);
+        visit(x, y, z, false, core.point_of(row.deviation[n], momentum, solids),
+              std::min(1., solids.fraction));
+      }
+    }
+  return stored;
+}
+
 }  // namespace
 
 Fluid::Fluid(const FluidSettings& settings, const Decomposition& decomposition)
@@ -158,24 +196,11 @@ FluidPoint Fluid::at(const Index3& cell) const {
   return core_->at(cell[0] - lo[0], cell[1] - lo[1], cell[2] - lo[2]);
 }
 
-void Fluid::for_each_point(const PointVisitor& visit) const {
-  const CellBox& box = core_->decomposition.local_box();
-  FluidCoreBase::RowMoments row;
-  for (int z = 0; z < box.extent(2); ++z)
-    for (int y = 0; y < box.extent(1); ++y) {
-      core_->moments_of_row(y, z, row);
-      for (int x = 0; x < box.extent(0); ++x) {
-        const auto n = static_cast<std::size_t>(x);
-        const Index3 cell{box.lo[0] + x, box.lo[1] + y, box.lo[2] + z};
-        if (core_->is_solid(x, y, z)) {
-          visit(cell, {}, 1);
-          continue;
-        }
-        const PartialSolidCell solids = core_->partial_solid(x, y, z);
-        const Vec3 momentum(row.momentum[0][n], row.momentum[1][n], row.momentum[2][n]);
-        visit(cell, core_->point_of(row.deviation[n], momentum, solids), std::min(1., solids.fraction));
-      }
-    }
+StoredMomentum Fluid::for_each_point(const PointVisitor& visit) const {
+  const Index3& lo = core_->decomposition.local_box().lo;
+  return visit_points(*core_, [&](int x, int y, int z, bool, const FluidPoint& point, double solid_fraction) {
+    visit({lo[0] + x, lo[1] + y, lo[2] + z}, point, solid_fraction);
+  });
 }
 
 double Fluid::population(int direction, const Index3& cell) const {
@@ -221,19 +246,22 @@ Vec3 Fluid::momentum() const {
 
 FluidExtremes Fluid::extremes() const {
   double speed_squared = 0, high = -1e300, minus_low = -1e300, broken = 0, stored = 0;
-  for_each_point([&](const Index3& cell, const FluidPoint& point, double) {
+  const auto look = [&](int, int, int, bool is_solid, const FluidPoint& point, double) {
     stored += point.density - 1;
-    if (is_solid(cell)) return;
+    if (is_solid) return;
     if (!std::isfinite(point.density) || !point.velocity.allFinite()) broken = 1;
     speed_squared = std::max(speed_squared, point.velocity.squaredNorm());
     high = std::max(high, point.density);
     minus_low = std::max(minus_low, -point.density);
-  });
+  };
+  StoredMomentum momentum = visit_points(*core_, look);
   const double mine[4] = {speed_squared, high, minus_low, broken};
   double all[4];
   MPI_Allreduce(mine, all, 4, MPI_DOUBLE, MPI_MAX, core_->decomposition.communicator());
-  MPI_Allreduce(MPI_IN_PLACE, &stored, 1, MPI_DOUBLE, MPI_SUM, core_->decomposition.communicator());
-  return {std::sqrt(all[0]), -all[2], all[1], all[3] == 0, stored};
+  double sums[5] = {stored, momentum.sum[0], momentum.sum[1], momentum.sum[2], momentum.magnitude};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_DOUBLE, MPI_SUM, core_->decomposition.communicator());
+  momentum = {Vec3(sums[1], sums[2], sums[3]), sums[4]};
+  return {std::sqrt(all[0]), -all[2], all[1], all[3] == 0, sums[0], momentum};
 }
 
 }  // namespace suffuse::lbm

@@ -13,6 +13,7 @@
 #include "compute_stress_layer.h"
 #include "compute_stress_reduction.h"
 #include "compute_strong_contacts.h"
+#include "fix_compute_reference.h"
 #include "fix_contact_sampler.h"
 #include "fix_density_scaling.h"
 #include "fix_hydrodynamic_force.h"

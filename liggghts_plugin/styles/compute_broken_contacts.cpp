@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "comm.h"
+#include "fix_compute_reference.h"
 #include "lammps.h"
 #include "pair_exchange.h"
 #include "suffuse/common/error.h"
@@ -26,6 +27,33 @@ ComputeBrokenContacts::ComputeBrokenContacts(LAMMPS* lmp_in, int& iarg, int narg
       suffuse::throw_user_error({who(), "reference", kind, "be first, step N or file NAME", ""});
   }
   declare_vector(6);
+  if (file_.empty()) keep_reference();
+}
+
+ComputeBrokenContacts::~ComputeBrokenContacts() {
+  FixComputeReference::forget(lmp, *this);
+}
+
+void ComputeBrokenContacts::keep_reference() {
+  const auto restored = FixComputeReference::keep_for(lmp, *this, [this] { return reference_values(); });
+  if (!restored) return;
+  has_reference_ = true;
+  Pairs pairs;
+  for (std::size_t n = 0; comm->me == 0 && n + 1 < restored->size(); n += 2)
+    pairs.push_back(
+        {static_cast<std::int64_t>((*restored)[n]), static_cast<std::int64_t>((*restored)[n + 1])});
+  reference_ = suffuse::share_out_by_hash(pairs, world);
+}
+
+/// Grain numbers are far below 2^53.
+std::vector<double> ComputeBrokenContacts::reference_values() const {
+  std::vector<double> values;
+  if (!has_reference_) return values;
+  for (const GrainPair& pair : suffuse::gather_pairs(reference_, world)) {
+    values.push_back(static_cast<double>(pair.low));
+    values.push_back(static_cast<double>(pair.high));
+  }
+  return values;
 }
 
 double ComputeBrokenContacts::compute_scalar() {

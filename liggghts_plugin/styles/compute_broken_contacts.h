@@ -19,16 +19,20 @@ namespace LAMMPS_NS {
 /// `compute ID group broken/contacts [reference first | step N | file NAME]`: contacts lost and formed since
 /// a reference state (global vector). Formulas: micromechanics/broken_contacts.h.
 ///
-/// The reference set is shared out over ranks by a hash of the pair, since grains move between ranks.
+/// The reference set is shared out over ranks by a hash of the pair, since grains move between ranks. It is
+/// kept in restart files, unless a file of its own has it.
 class ComputeBrokenContacts : public ContactCompute {
  public:
   ComputeBrokenContacts(LAMMPS* lmp, int& iarg, int narg, char** arg);
+  ~ComputeBrokenContacts() override;
   double compute_scalar() override;
   void compute_vector() override;
 
  private:
   using Pairs = std::vector<suffuse::micromechanics::GrainPair>;
 
+  void keep_reference();
+  std::vector<double> reference_values() const;
   void take_reference(const Pairs& current);
   bool read_reference_file();
   void write_reference_file() const;

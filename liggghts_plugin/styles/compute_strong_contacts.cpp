@@ -1,5 +1,6 @@
 #include "compute_strong_contacts.h"
 
+#include "fix_compute_reference.h"
 #include "lammps.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/strong_contacts.h"
@@ -41,6 +42,18 @@ ComputeStrongContacts::ComputeStrongContacts(LAMMPS* lmp_in, int& iarg, int narg
     }
   }
   declare_vector(6);
+  if (kind_ == Threshold::frozen) keep_threshold();
+}
+
+ComputeStrongContacts::~ComputeStrongContacts() {
+  FixComputeReference::forget(lmp, *this);
+}
+
+void ComputeStrongContacts::keep_threshold() {
+  const auto values = [this] {
+    return threshold_ > 0 ? std::vector<double>{threshold_} : std::vector<double>{};
+  };
+  if (const auto restored = FixComputeReference::keep_for(lmp, *this, values)) threshold_ = restored->at(0);
 }
 
 double ComputeStrongContacts::compute_scalar() {

@@ -15,14 +15,17 @@ namespace LAMMPS_NS {
 
 /// `compute ID group strong/contacts [threshold mean|frozen|FORCE] [axis x|y|z]`: share of contacts whose
 /// normal force is at least the threshold, and the stress they carry (global vector). Formulas:
-/// micromechanics/strong_contacts.h.
+/// micromechanics/strong_contacts.h. A frozen threshold is kept in restart files.
 class ComputeStrongContacts : public ContactCompute {
  public:
   ComputeStrongContacts(LAMMPS* lmp, int& iarg, int narg, char** arg);
+  ~ComputeStrongContacts() override;
   double compute_scalar() override;
   void compute_vector() override;
 
  private:
+  void keep_threshold();
+
   enum class Threshold { mean, frozen, given };
 
   Threshold kind_ = Threshold::mean;

@@ -43,19 +43,34 @@ std::string body_of(const RestartRecord& record) {
        "the reading: give it another ID, and it starts anew"});
 }
 
-}  // namespace
-
-void write_record(FILE* file, const RestartRecord& record) {
+/// Head and body, as they stand in the file.
+std::string bytes_of(const RestartRecord& record) {
   const std::string body = body_of(record);
   Head head;
   head.version = record.version;
   head.characters = static_cast<std::int64_t>(record.text.size());
   head.values = static_cast<std::int64_t>(record.values.size());
   head.sum = sum_of(body.data(), body.size());
-  const int size = static_cast<int>(sizeof(head) + body.size());
+  std::string bytes(sizeof(head), 0);
+  std::memcpy(bytes.data(), &head, sizeof(head));
+  return bytes + body;
+}
+
+void write_bytes(FILE* file, const std::string& bytes) {
+  const int size = static_cast<int>(bytes.size());
   fwrite(&size, sizeof(size), 1, file);
-  fwrite(&head, sizeof(head), 1, file);
-  fwrite(body.data(), 1, body.size(), file);
+  fwrite(bytes.data(), 1, bytes.size(), file);
+}
+
+}  // namespace
+
+void write_record(FILE* file, const RestartRecord& record) {
+  write_bytes(file, bytes_of(record));
+}
+
+void write_list(FILE* file, const RestartRecord& record) {
+  const auto count = static_cast<double>(record.values.size());
+  write_bytes(file, bytes_of({record.version, "", {count}}) + bytes_of(record));
 }
 
 RestartRecord read_record(const char* buffer, int version, std::size_t values, const std::string& who) {
@@ -76,6 +91,15 @@ RestartRecord read_record(const char* buffer, int version, std::size_t values, c
   std::memcpy(record.values.data(), body + head.characters, values * sizeof(double));
   if (sum_of(body, record.text.size() + values * sizeof(double)) != head.sum) refuse(who, "damaged", version);
   return record;
+}
+
+RestartRecord read_list(const char* buffer, int version, const std::string& who) {
+  constexpr double most = 1 << 28;  // LIGGGHTS counts a record's bytes in an int
+  const RestartRecord count = read_record(buffer, version, 1, who);
+  if (!count.text.empty() || !(count.values[0] >= 0 && count.values[0] < most))
+    refuse(who, fmt::format("{:g} values", count.values[0]), version);
+  return read_record(buffer + bytes_of(count).size(), version, static_cast<std::size_t>(count.values[0]),
+                     who);
 }
 
 }  // namespace suffuse

@@ -22,6 +22,10 @@ void write_record(FILE* file, const RestartRecord& record);
 /// many values, or its sum is another one. The same on all ranks, which LIGGGHTS gives the same bytes.
 RestartRecord read_record(const char* buffer, int version, std::size_t values, const std::string& who);
 
+/// The same for as many values as there are: a record of one value, their number, goes before.
+void write_list(FILE* file, const RestartRecord& record);
+RestartRecord read_list(const char* buffer, int version, const std::string& who);
+
 }  // namespace suffuse
 
 #endif

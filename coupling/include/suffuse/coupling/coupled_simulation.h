@@ -33,6 +33,19 @@ class SeenGrains {
 /// By which a simulation with these settings gives grains inertia of the fluid.
 VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Units& units);
 
+/// A LostRun: a grain whose position, velocity or spin is no number.
+[[noreturn]] void throw_lost_grain(const std::string& who, double time_si);
+
+/// What the lattice should have gained of momentum since the simulation began, lattice units. Loads that are
+/// not formed, since nothing moves the grains, leave it unknown what they took.
+struct MomentumLedger {
+  Vec3 force = Vec3::Zero();   ///< of the uniform force, each cell, summed over the steps
+  double force_magnitude = 0;  ///< the same, of its magnitude
+  Vec3 grains = Vec3::Zero();  ///< what this rank's grains took over
+  double grains_magnitude = 0;
+  long steps_unknown = 0;
+};
+
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
 /// hands what it exerted to the grains and advances these.
 ///
@@ -80,7 +93,7 @@ class CoupledSimulation {
 
   /// The water in the cells of this rank, whoever computes it (lbm::Fluid::for_each_point): of a method's
   /// cells the volume flux of water and grains together. After `map`.
-  void for_each_point(const lbm::Fluid::PointVisitor& visit) const;
+  lbm::StoredMomentum for_each_point(const lbm::Fluid::PointVisitor& visit) const;
   /// Share of a cell of this rank that grains cover, and the part of its velocity that is theirs, cells a
   /// step.
   double solid_fraction(const lbm::Index3& cell) const;
@@ -122,6 +135,7 @@ class CoupledSimulation {
 
   /// Spheres (copies included) that the last step mapped anew on this rank.
   std::size_t remapped() const { return remapped_; }
+  const MomentumLedger& ledger() const { return ledger_; }
   CoupledTimes& times() { return times_; }
   const CoupledTimes& times() const { return times_; }
 
@@ -154,12 +168,13 @@ class CoupledSimulation {
   void rest(bool loads_wanted);
   void step_method();
   void hand_method_loads_over(const GrainArrays& grains);
-  void hand_loads_over();
+  int hand_loads_over();
   void read_spheres(const GrainArrays& grains);
   bool survey_due(const GrainArrays& grains);
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
+  void keep_ledger(int owned);
   void require_finite(const GrainArrays& grains) const;
 
   CoupledSettings settings_;
@@ -184,9 +199,11 @@ class CoupledSimulation {
   bool stepped_ = false;      ///< since this simulation began
   long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;
+  bool spheres_finite_ = true;  ///< of this rank: every position, velocity and spin is a number
   SeenGrains seen_;
   std::string acting_walls_;
   std::vector<double> force_, torque_, lead_, spin_lead_;
+  MomentumLedger ledger_;
   CoupledTimes times_;
 };
 

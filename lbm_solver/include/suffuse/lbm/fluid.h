@@ -34,12 +34,19 @@ struct FluidPoint {
   Vec3 velocity = Vec3::Zero();
 };
 
+/// Of the populations of cells, those in grains included, as they are about to collide.
+struct StoredMomentum {
+  Vec3 sum = Vec3::Zero();  ///< sum of f_i c_i: a step changes it by what force, solids, faces and walls give
+  double magnitude = 0;     ///< sum of its components' magnitudes, cell by cell
+};
+
 /// Extremes over all fluid cells of all ranks.
 struct FluidExtremes {
   double largest_speed = 0;
   double smallest_density = 1, largest_density = 1;
   bool finite = true;      ///< false as soon as one cell holds a NaN or an infinity
   double stored_mass = 0;  ///< of all cells, those in grains included, beyond rest: conserved in a closed box
+  StoredMomentum stored_momentum;
 };
 
 class FluidCoreBase;
@@ -116,10 +123,10 @@ class Fluid {
   FluidPoint at(const Index3& cell) const;
 
   /// Visits the cells of this rank with what `at` and `solid_fraction` give for them, to the last digit:
-  /// several times faster than one by one.
+  /// several times faster than one by one. What the populations of this rank hold comes with it.
   using PointVisitor =
       std::function<void(const Index3& cell, const FluidPoint& point, double solid_fraction)>;
-  void for_each_point(const PointVisitor& visit) const;
+  StoredMomentum for_each_point(const PointVisitor& visit) const;
 
   /// The population that a cell of this rank is about to collide, less its weight.
   double population(int direction, const Index3& cell) const;
