@@ -14,7 +14,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, columns, expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
+from scenes import QUICK_STARTS_AND_ENDS, Program, columns, expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 FLOW = """
@@ -45,7 +45,7 @@ def interrupted(program, text, folder, sent):
     series.unlink(missing_ok=True)
     with open(folder / "screen", "w") as screen:
         run = subprocess.Popen(launcher + [program.suffuse, "-in", "in.stopped", "-log", "log.stopped", "-echo", "none"], cwd=folder,
-                               stdout=screen, stderr=subprocess.STDOUT)
+                               stdout=screen, stderr=subprocess.STDOUT, env=os.environ | QUICK_STARTS_AND_ENDS)
         start = time.monotonic()
         while run.poll() is None and time.monotonic() - start < 100:
             if series.exists() and series.read_text().count("\n") >= 7:
