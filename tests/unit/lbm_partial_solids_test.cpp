@@ -48,8 +48,7 @@ std::vector<double> reference_run(const FluidSettings& settings, const PartialSo
   plain.set_force(force);
   for_each_cell(box, [&](int x, int y, int z) {
     plain.set_partial_solid({x, y, z}, solids_of({x, y, z}, partial));
-    for (int i = 0; i < kDirections; ++i)
-      plain.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
+    for (int i = 0; i < kDirections; ++i) plain.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
   });
   std::vector<double> found;
   for (int step = 0; step < kSteps; ++step) {
@@ -78,8 +77,7 @@ double largest_difference(const FluidSettings& settings, const PartialSolidSetti
     arrays.strength[place(x, y, z)] = static_cast<float>(solids.strength);
     for (std::size_t a = 0; a < 3; ++a)
       arrays.momentum[a][place(x, y, z)] = static_cast<float>(solids.momentum[static_cast<int>(a)]);
-    for (int i = 0; i < kDirections; ++i)
-      fast.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
+    for (int i = 0; i < kDirections; ++i) fast.set_population(i, {x, y, z}, random_population(i, {x, y, z}));
   });
   double worst = 0;
   const auto note = [&](double difference) {
@@ -142,8 +140,8 @@ TEST_CASE("partly covered cells: fast kernels equal the reference for every oper
                                      CollisionOperator::trt_comoving, CollisionOperator::central_moments})
     for (const SolidOperator solid :
          {SolidOperator::sc1, SolidOperator::sc2, SolidOperator::sc3, SolidOperator::force})
-      for (const SolidWeighting weighting :
-           {SolidWeighting::fraction, SolidWeighting::noble_torczynski, SolidWeighting::viscosity_independent})
+      for (const SolidWeighting weighting : {SolidWeighting::fraction, SolidWeighting::noble_torczynski,
+                                             SolidWeighting::viscosity_independent})
         for (int options = 0; options < 8; ++options) {
           const bool own = (options & 4) != 0;
           if (own && weighting != SolidWeighting::viscosity_independent) continue;
