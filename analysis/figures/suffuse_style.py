@@ -68,10 +68,16 @@ def plain_log_ticks(axis):
 
 
 def save(figure, path):
-    """Writes the figure; the format is that of the file's ending."""
-    pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
-    plt.close(figure)
+    """Writes the figure; the format is that of the file's ending. It takes its name when it is whole."""
+    path = pathlib.Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".part_{path.name}")
+    try:
+        figure.savefig(part, metadata={"Date": None} if path.suffix == ".svg" else None)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+        plt.close(figure)
 
 
 def shades(count):
