@@ -20,6 +20,19 @@ function(suffuse_compile_options target)
   endif()
 endfunction()
 
+# Headers that take most of a file's time to compile, read once for all libraries: a file then takes some 0.8 s less of 2 or 3. Off by default,
+# as compilers' caches know little of it, and a file that lacks an include would pass.
+function(suffuse_precompiled_headers target)
+  if(NOT SUFFUSE_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(target STREQUAL suffuse_common)
+    target_precompile_headers(${target} PRIVATE <Eigen/Dense> <fmt/format.h> <algorithm> <array> <functional> <map> <string> <vector>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM suffuse_common)
+  endif()
+endfunction()
+
 function(suffuse_library)
   cmake_parse_arguments(ARG "" "NAME" "SOURCES;PUBLIC_LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(suffuse_${ARG_NAME} STATIC ${ARG_SOURCES})
@@ -27,6 +40,7 @@ function(suffuse_library)
   target_include_directories(suffuse_${ARG_NAME} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
   target_link_libraries(suffuse_${ARG_NAME} PUBLIC ${ARG_PUBLIC_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
   suffuse_compile_options(suffuse_${ARG_NAME})
+  suffuse_precompiled_headers(suffuse_${ARG_NAME})
 endfunction()
 
 # HEADERS: folders whose headers others include by the folder's name, besides those of include/.

@@ -71,17 +71,6 @@ void make_command(LAMMPS* lmp, int narg, char** arg) {
   Style(lmp).command(narg, arg);
 }
 
-/// `run`, able to end early: see early_stop.h. A real interrupt still ends the script.
-void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
-  suffuse::EarlyStop::requested = false;
-  suffuse::tell_meshes_beyond_periodic_faces(lmp);
-  suffuse::tell_box_of_few_grains(lmp);
-  const suffuse::GrainCensus census(lmp);
-  Run(lmp).command(narg, arg);
-  if (suffuse::EarlyStop::requested) SignalHandler::request_quit = false;
-  census.tell_lost();
-}
-
 void read_data(LAMMPS* lmp, int narg, char** arg) {
   ReadData(lmp).command(narg, arg);
   suffuse::require_unique_grains(lmp, "read_data");
@@ -177,6 +166,16 @@ void LAMMPS_NS::Input::compute() {
 
 namespace suffuse {
 
+void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
+  EarlyStop::requested = false;
+  tell_meshes_beyond_periodic_faces(lmp);
+  tell_box_of_few_grains(lmp);
+  const GrainCensus census(lmp);
+  Run(lmp).command(narg, arg);
+  if (EarlyStop::requested) SignalHandler::request_quit = false;
+  census.tell_lost();
+}
+
 void register_styles(LAMMPS* lmp, GrainLoop loop) {
   loop_in_use = loop;
   if (loop == GrainLoop::vector) install_grain_loop(lmp);
@@ -185,10 +184,10 @@ void register_styles(LAMMPS* lmp, GrainLoop loop) {
   for (const auto& [name, creator] : our_fixes()) (*(lmp->modify->*member_of(FixMap{})))[name] = creator;
   auto& commands = *(lmp->input->*member_of(CommandMap{}));
   for (const auto& [name, creator] : our_commands()) commands[name] = creator;
-  for (const auto& [name, creator] : added_commands) commands[name] = creator;
   commands["run"] = &run_until_stopped;
   commands["read_data"] = &read_data;
   commands["replicate"] = &replicate;
+  for (const auto& [name, creator] : added_commands) commands[name] = creator;
   EarlyStop::supported = true;
 }
 

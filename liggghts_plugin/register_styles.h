@@ -20,6 +20,9 @@ enum class GrainLoop {
 /// `clear` does it again.
 void register_styles(LAMMPS_NS::LAMMPS* lmp, GrainLoop loop = GrainLoop::vector);
 
+/// The command `run`, able to end early: see early_stop.h. A real interrupt still ends the script.
+void run_until_stopped(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
+
 /// Makes a command known that is defined elsewhere. It gets the words after its name.
 void add_command(LAMMPS_NS::LAMMPS* lmp, const std::string& name,
                  void (*command)(LAMMPS_NS::LAMMPS*, int narg, char** arg));

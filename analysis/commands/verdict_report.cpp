@@ -107,13 +107,16 @@ void add_constrictions(ReportDocument& report, const VerdictInput& input, const 
   }
   const ConstrictionAnalysis& analysis = *findings.analysis;
   const double density = input.relative_density.value_or(0);
-  const auto at = [&](double share) { return 1e6 * analysis.sizes.at(share, density); };
+  const bool gravel = analysis.sizes.at(1, density) >= 1e-3;
+  const double factor = gravel ? 1e3 : 1e6;
+  const auto at = [&](double share) { return factor * analysis.sizes.at(share, density); };
   report.paragraph(fmt::format(
-      "Coarse fraction as filter, fine as base; split at {:.3g} % ({}). Constrictions of the coarse "
-      "fraction, um: "
-      "smallest {:.4g}, Dc35 {:.4g}, Dc50 {:.4g}, largest {:.4g}. d85 of the fine fraction {:.4g} um.",
-      100 * analysis.split.finer, analysis.split.rule, at(0), at(0.35), at(0.5), at(1),
-      1e6 * analysis.largest_erodible));
+      "The coarse fraction is the filter, the fine one the base that it must hold; split at {:.3g} % ({}). "
+      "A constriction is the narrowest passage between neighbouring grains. Those of the coarse fraction, "
+      "{}: smallest {:.4g}, Dc35 (35 % are narrower) {:.4g}, Dc50 {:.4g}, largest {:.4g}. d85 of the fine "
+      "fraction {:.4g} {}.",
+      100 * analysis.split.finer, analysis.split.rule, gravel ? "mm" : "um", at(0), at(0.35), at(0.5), at(1),
+      factor * analysis.largest_erodible, gravel ? "mm" : "um"));
   add_criteria(report, findings.constriction);
 }
 
@@ -139,7 +142,9 @@ void add_boundaries(ReportDocument& report, const VerdictInput& input, const Ver
   if (table.rows.empty()) return;
   report.heading("Chapter 4: Z and alpha");
   report.paragraph(fmt::format(
-      "Unstable if Z <= {0:g} or alpha <= {1:g} (sections 4.4.1, 4.5, 5.3.6); elsewhere the thesis "
+      "Z is the mean number of contacts of a grain, alpha the mean stress in the fine grains over that of "
+      "the whole sample: with few contacts and little stress the fines lie loose in the pores. Unstable if Z "
+      "<= {0:g} or alpha <= {1:g} (sections 4.4.1, 4.5, 5.3.6); elsewhere the thesis "
       "says \"simultaneously\" (1.3) or \"and\" (7.2.1). Both:",
       limits.coordination, limits.stress_reduction));
   report.table(std::move(table));

@@ -5,10 +5,12 @@ Needs the columns time_s, mean_stress_pa and void_ratio; draws coordination_numb
 Porosity is e/(1+e). Compression is positive.
 
   compression.py SERIES.csv --output FIGURE.png --target 200e3     the figure
+  compression.py SERIES.csv --output FIGURE.png --follow           the figure, again and again while the run goes on
   compression.py SERIES.csv --table --target 200e3                 the last state, as a table on the screen
 """
 import argparse
 
+import follow
 from time_series import TimeSeries
 
 
@@ -65,15 +67,20 @@ def main():
     parser.add_argument("--output", help="figure to write; its ending says the format")
     parser.add_argument("--target", type=float, help="target of the mean effective stress, Pa")
     parser.add_argument("--table", action="store_true", help="print the last state")
+    follow.add_option(parser)
     options = parser.parse_args()
     if not options.output and not options.table:
         parser.error("nothing to do: give --output FIGURE, --table, or both")
-    series = TimeSeries(options.series)
-    series.require("time_s", "mean_stress_pa", "void_ratio")
-    if options.output:
-        draw(series, options.target, options.output)
-    if options.table:
-        print(table(series, options.target))
+
+    def show():
+        series = TimeSeries(options.series, growing=options.follow is not None)
+        series.require("time_s", "mean_stress_pa", "void_ratio")
+        if options.output:
+            draw(series, options.target, options.output)
+        if options.table:
+            print(table(series, options.target))
+
+    follow.draw_once_or_follow(options, [options.series], show)
 
 
 if __name__ == "__main__":

@@ -23,31 +23,35 @@ def draw_distribution(series, grading, options):
 
     figure, axes = pyplot.subplots(figsize=(style.width_of(options), 3.6))
     percent = series["percent_finer"]
+    # Of what is drawn, and named below it.
+    drawn = [key for key, _, _ in FRACTIONS if key in options.fractions and f"dense_by_{key}_m" in series]
+    sizes = [size for key in drawn for size in series[f"loose_by_{key}_m"]] + list(series["packing_m"] if "packing_m" in series else [])
+    factor, unit = style.length_unit(*sizes, *(grading["diameter_m"] if grading else []))
 
-    def micrometres(column):
-        return [1e6 * size for size in series[column]]
+    def in_unit(column):
+        return [factor * size for size in series[column]]
 
     for key, name, colour in FRACTIONS:
-        if key not in options.fractions or f"dense_by_{key}_m" not in series:
+        if key not in drawn:
             continue
         colour = style.COLOURS[colour]
         if key == "surface_area":
-            axes.fill_betweenx(percent, micrometres(f"dense_by_{key}_m"), micrometres(f"loose_by_{key}_m"), color=colour, alpha=0.15,
+            axes.fill_betweenx(percent, in_unit(f"dense_by_{key}_m"), in_unit(f"loose_by_{key}_m"), color=colour, alpha=0.15,
                                linewidth=0, label="three to four grains, by surface area")
-        axes.plot(micrometres(f"at_density_by_{key}_m"), percent, color=colour, label=f"at the relative density, by {name}")
+        axes.plot(in_unit(f"at_density_by_{key}_m"), percent, color=colour, label=f"at the relative density, by {name}")
     if "packing_m" in series:
-        axes.plot(micrometres("packing_m"), percent, color=style.COLOURS["vermilion"], label=style.plain(options.packing_name))
+        axes.plot(in_unit("packing_m"), percent, color=style.COLOURS["vermilion"], label=style.plain(options.packing_name))
     for path, colour, line in zip(options.others, ("purple", "sky"), ("--", "-.")):
         other = TimeSeries(path)
         other.require("packing_m", "percent_finer")
-        axes.plot([1e6 * size for size in other["packing_m"]], other["percent_finer"], color=style.COLOURS[colour], linestyle=line,
+        axes.plot([factor * size for size in other["packing_m"]], other["percent_finer"], color=style.COLOURS[colour], linestyle=line,
                   label=style.plain(options.other_names.pop(0) if options.other_names else pathlib.Path(path).stem))
     if grading:
-        axes.plot([1e6 * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
+        axes.plot([factor * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
     axes.axhline(35, **style.REFERENCE)
     axes.annotate("35 %", xy=(1, 35), xycoords=("axes fraction", "data"), xytext=(-2, 2), textcoords="offset points", fontsize=8, ha="right",
                   color=style.REFERENCE["color"])
-    axes.set(xscale="log", xlabel="constriction or grain diameter (µm)", ylabel="finer (%)", ylim=(0, 100))
+    axes.set(xscale="log", xlabel=f"constriction or grain diameter ({unit})", ylabel="finer (%)", ylim=(0, 100))
     style.plain_log_ticks(axes.xaxis)
     axes.grid(True, which="both")
     axes.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.2))

@@ -3,7 +3,7 @@
 
 From the monitor file of a run, and what `suffuse-analyse fluidisation FLOW.csv --grading PSD.csv --csv RESULTS.csv` found in it:
 
-  fluidisation.py FLOW.csv --results RESULTS.csv --output fluidisation.png fluidisation.pdf
+  fluidisation.py FLOW.csv --results RESULTS.csv --output fluidisation.png fluidisation.pdf [--follow]
   fluidisation.py --fields bed.h5 --output slice.png slice.pdf [--time SECONDS] [--position METRES]
   fluidisation.py --measures MEASURES.csv --distributions SHARES.csv --output contacts.png
 
@@ -17,6 +17,7 @@ import csv
 import pathlib
 import sys
 
+import follow
 from time_series import TimeSeries, numbered
 
 
@@ -314,15 +315,19 @@ def main():
     parser.add_argument("--position", type=float, help="of the slice, y in m")
     parser.add_argument("--width", type=float, help="of the record's figure, inches")
     parser.add_argument("--output", required=True, nargs="+", help="files to write; their endings say the format")
+    follow.add_option(parser)
     options = parser.parse_args()
     if sum(given is not None for given in (options.series, options.fields, options.measures)) != 1:
         parser.error("give one of: the monitor file, --fields FILE.h5, --measures FILE.csv")
+    if options.follow is not None and options.series is None:
+        parser.error("--follow draws the monitor file, not --fields or --measures")
     if options.measures:
         draw_contacts(options.measures, options.distributions, options.step, options.output)
     elif options.fields:
         draw_slice(options.fields, options.time, options.position, options.output)
     else:
-        draw_record(TimeSeries(options.series), results_of(options.results), options.output, options.width)
+        follow.draw_once_or_follow(options, [options.series], lambda: draw_record(
+            TimeSeries(options.series, growing=options.follow is not None), results_of(options.results), options.output, options.width))
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import argparse
 import re
 import sys
 
+import follow
 from time_series import TimeSeries
 
 NAMES = {"hydraulic_gradient_layer": "local gradient i (−)", "porosity_layer": "porosity n (−)", "pressure_layer_pa": "pressure (Pa)",
@@ -69,8 +70,13 @@ def main():
     parser.add_argument("--extent", type=float, nargs=2, metavar=("LO", "HI"), help="bottom and top of the layers, m")
     parser.add_argument("--width", type=float, help="of the figure, inches")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    follow.add_option(parser)
     options = parser.parse_args()
-    series = TimeSeries(options.series)
+    follow.draw_once_or_follow(options, [options.series], lambda: show(options))
+
+
+def show(options):
+    series = TimeSeries(options.series, growing=options.follow is not None)
     series.require("time_s")
     found = layered(series)
     if not found:

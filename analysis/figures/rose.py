@@ -12,6 +12,8 @@ from time_series import TimeSeries
 
 ROSES = [("contact_density", "_per_rad", "contacts, E (1/rad)"), ("normal_force_density", "_per_rad", "normal forces (1/rad)"),
          ("mean_tangential_force", "_over_f0", "mean tangential force / $f_0$ (−)")]
+# Of the mean normal force f_0. Below it no friction is at work: what a sample without friction has are rounding and damping.
+NOISE = 1e-4
 
 
 def fine_fit(series, name, unit):
@@ -41,19 +43,24 @@ def draw_rose(path, plane, options):
     low, high = series["angle_low_rad"], series["angle_high_rad"]
     for panel, (name, unit, title) in zip(axes.flat, roses):
         values = series[f"{name}{unit}"]
+        panel.set_title(title, pad=12)
+        panel.tick_params(labelsize=8 if options.width else 6.5)
+        panel.set_xticks([k * math.pi / 4 for k in range(8)])
+        panel.set_xticklabels([plane[0], "45°", plane[1], "135°", "180°", "", "270°", ""])
+        largest = max(abs(v) for v in values)
+        if unit == "_over_f0" and largest < NOISE:
+            panel.set_yticks([])
+            panel.annotate(f"none: at most {largest:.1g} $f_0$,\nno friction is at work", xy=(0.5, 0.5), xycoords="axes fraction", ha="center", va="center", fontsize=8)
+            continue
         signed = min(values) < 0
         bars = panel.bar(low, [abs(v) for v in values], width=[b - a for a, b in zip(low, high)], align="edge", linewidth=0.4, edgecolor="white")
         for bar, value in zip(bars, values):
             bar.set_facecolor(style.COLOURS["sky" if value >= 0 else "orange"])
         angle, fit = fine_fit(series, name, unit)
         panel.plot(angle, abs(fit), color=style.COLOURS["vermilion"], linewidth=1.3)
-        panel.set_title(title, pad=12)
         panel.set_axisbelow(False)
         panel.yaxis.set_major_locator(style.plt.MaxNLocator(3))
         panel.set_rlabel_position(22.5)
-        panel.tick_params(labelsize=8 if options.width else 6.5)
-        panel.set_xticks([k * math.pi / 4 for k in range(8)])
-        panel.set_xticklabels([plane[0], "45°", plane[1], "135°", "180°", "", "270°", ""])
         if signed:
             panel.annotate("blue: anticlockwise, orange: clockwise", xy=(0.5, -0.2), xycoords="axes fraction", ha="center", fontsize=6.5)
     style.save(figure, options.output)

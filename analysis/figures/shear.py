@@ -5,11 +5,12 @@ Draws what the columns of one or several time series give (those of 02_constant_
 series are drawn over each other and named by their folders or by --labels. Dilation is drawn upwards, as the thesis
 does; in the files compression is positive.
 
-  shear.py SERIES.csv [SERIES.csv ...] --output FIGURE.png [--labels NAME ...]
+  shear.py SERIES.csv [SERIES.csv ...] --output FIGURE.png [--labels NAME ...] [--follow]
 """
 import argparse
 import pathlib
 
+import follow
 from time_series import TimeSeries
 
 # (columns, label of the axis, how to draw them)
@@ -66,14 +67,19 @@ def main():
     parser.add_argument("series", nargs="+", help="CSV files of runs")
     parser.add_argument("--labels", nargs="+", help="one name a series")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    follow.add_option(parser)
     options = parser.parse_args()
     labels = options.labels or [pathlib.Path(path).resolve().parent.name for path in options.series]
     if len(labels) != len(options.series):
         parser.error(f"{len(labels)} labels for {len(options.series)} series")
-    runs = [TimeSeries(path) for path in options.series]
-    for run in runs:
-        run.require("axial_strain", "mean_stress_pa", "deviatoric_stress_pa")
-    draw(runs, labels, options.output)
+
+    def show():
+        runs = [TimeSeries(path, growing=options.follow is not None) for path in options.series]
+        for run in runs:
+            run.require("axial_strain", "mean_stress_pa", "deviatoric_stress_pa")
+        draw(runs, labels, options.output)
+
+    follow.draw_once_or_follow(options, options.series, show)
 
 
 if __name__ == "__main__":

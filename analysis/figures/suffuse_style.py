@@ -58,20 +58,35 @@ def reference_line(axes, value, label):
                   ha="right", va="bottom", fontsize=8, color=REFERENCE["color"])
 
 
+def length_unit(*sizes_m):
+    """Factor and name of the unit in which an axis of these sizes is read: mm where the largest is that of gravel (2 mm or more), else µm."""
+    return (1e3, "mm") if max(sizes_m) >= 2e-3 else (1e6, "µm")
+
+
 def plain_log_ticks(axis):
-    """Numbers as people write them on a logarithmic axis, few enough not to touch each other."""
+    """Numbers as people write them on a logarithmic axis, few enough not to touch each other; call it when all is drawn."""
+    import math
     from matplotlib.ticker import LogLocator, NullFormatter
 
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=12))
+    low, high = sorted(axis.get_view_interval())
+    decades = math.log10(high / low)
+    subs = (1,) if decades > 4 else (1, 3) if decades > 1.8 else (1, 2, 5) if decades > 0.7 else (1, 1.5, 2, 3, 5, 7)
+    axis.set_major_locator(LogLocator(subs=subs, numticks=12))
     axis.set_major_formatter("{x:g}")
     axis.set_minor_formatter(NullFormatter())
 
 
 def save(figure, path):
-    """Writes the figure; the format is that of the file's ending."""
-    pathlib.Path(path).parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, metadata={"Date": None} if str(path).endswith(".svg") else None)
-    plt.close(figure)
+    """Writes the figure; the format is that of the file's ending. It takes its name when it is whole."""
+    path = pathlib.Path(path)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".part_{path.name}")
+    try:
+        figure.savefig(part, metadata={"Date": None} if path.suffix == ".svg" else None)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
+        plt.close(figure)
 
 
 def shades(count):

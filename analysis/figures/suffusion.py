@@ -3,7 +3,7 @@
 
 From the monitor file of a run of input_scripts/09_suffusion, and its result file for the critical gradients beside it:
 
-  suffusion.py FLOW.csv [--results suffusion_result.csv] [--against gradient|time] --output suffusion.png
+  suffusion.py FLOW.csv [--results suffusion_result.csv] [--against gradient|time] --output suffusion.png [--follow]
   suffusion.py --grains bed_grains.h5 --split DIAMETER [--times SECONDS ...] --output grains.png
 
 The first draws the share of the fines that have left, the velocity, the gradient of each layer over the mean, fines content and Z of the
@@ -14,6 +14,7 @@ import argparse
 import csv
 import sys
 
+import follow
 from time_series import TimeSeries, numbered
 
 MARKS = (("skempton_brogan", "Skempton and Brogan", "green"), ("li_fannin", "Li and Fannin", "vermilion"),
@@ -123,17 +124,24 @@ def main():
     parser.add_argument("--times", type=float, nargs="+", help="with --grains: instants, s")
     parser.add_argument("--width", type=float, help="of the figure, inches")
     parser.add_argument("--output", required=True, help="figure to write; its ending says the format")
+    follow.add_option(parser)
     options = parser.parse_args()
     if (options.series is None) == (options.grains is None):
         parser.error("give flow.csv, or --grains bed_grains.h5")
     if options.grains is not None:
         if options.split is None:
             parser.error("--grains needs --split")
+        if options.follow is not None:
+            parser.error("--follow draws flow.csv, not --grains")
         draw_grains(options)
         return
-    series = TimeSeries(options.series)
-    series.require("time_s", "applied_gradient", "eroded_fines_share", "superficial_velocity_z_m_per_s", "hydraulic_gradient_layer_1", "settlement_m")
-    draw_record(series, results_of(options.results), options)
+
+    def show():
+        series = TimeSeries(options.series, growing=options.follow is not None)
+        series.require("time_s", "applied_gradient", "eroded_fines_share", "superficial_velocity_z_m_per_s", "hydraulic_gradient_layer_1", "settlement_m")
+        draw_record(series, results_of(options.results), options)
+
+    follow.draw_once_or_follow(options, [options.series], show)
 
 
 if __name__ == "__main__":

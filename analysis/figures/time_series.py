@@ -6,24 +6,29 @@ import csv
 import math
 import sys
 
+from follow import NoRowsYet
+
 
 class TimeSeries:
-    """Columns by name, each a list of numbers as long as the series."""
+    """Columns by name, each a list of numbers as long as the series. `growing`: a last line without its end is left out."""
 
-    def __init__(self, path):
+    def __init__(self, path, growing=False):
         self.path = path
         try:
             with open(path, newline="", encoding="utf-8") as file:
-                rows = [row for row in csv.reader(line for line in file if not line.startswith("#")) if row]
+                lines = [line for line in file if not line.startswith("#") and (line.endswith("\n") or not growing)]
+        except FileNotFoundError as problem:
+            raise NoRowsYet(f"{path}: {problem.strerror}; give the CSV file that the run wrote")
         except OSError as problem:
             sys.exit(f"{path}: {problem.strerror}; give the CSV file that the run wrote")
+        rows = [row for row in csv.reader(lines) if row]
         if len(rows) < 2:
-            sys.exit(f"{path}: has no rows under its header; has the run got that far?")
+            raise NoRowsYet(f"{path}: has no rows under its header; has the run got that far?")
         header = [name.strip() for name in rows[0]]
         self.columns = {name: [] for name in header}
         for number, row in enumerate(rows[1:], start=2):
             if len(row) != len(header):
-                sys.exit(f"{path}: row {number} has {len(row)} values, the header {len(header)} names; is the run still writing?")
+                sys.exit(f"{path}: row {number} has {len(row)} values, the header {len(header)} names; is the run still writing (--follow)?")
             for name, text in zip(header, row):
                 try:
                     value = float(text) if text.strip() else math.nan

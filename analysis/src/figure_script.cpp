@@ -43,6 +43,16 @@ std::string find_script(const std::string& script, const std::string& who) {
                     "set SUFFUSE_FIGURES to the folder share/suffuse/figures of the installation"});
 }
 
+}  // namespace
+
+std::string figure_script_as_called(const std::string& script, const std::string& who) {
+  const std::string found = find_script(script, who);
+  // Of a source tree the path within it, from an installation the whole one.
+  return found.ends_with("/analysis/figures/" + script) ? "analysis/figures/" + script : found;
+}
+
+namespace {
+
 /// Looked for once: trying out matplotlib takes half a second.
 std::string find_python(const std::string& who) {
   static std::string found;

@@ -44,6 +44,17 @@ code { font-family: ui-monospace, "DejaVu Sans Mono", monospace; font-size: 0.85
 figure { margin: 1.2rem 0; }
 figure img { display: block; width: 100%; max-width: 34rem; height: auto; margin: 0 auto; }
 figcaption { font-size: 0.875rem; color: #404040; margin: 0.4rem auto 0; max-width: 34rem; }
+/* on a phone a row is a block, with the column's name before each cell */
+@media screen and (max-width: 34rem) {
+  .scroll { overflow: visible; background: none; }
+  table, tbody, tr, td { display: block; }
+  thead { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); }
+  tr { border-bottom: 2px solid #888; padding: 0.4rem 0; }
+  tr:first-child { border-top: 2px solid #888; }
+  td, td.short, td.long { display: grid; grid-template-columns: 7rem 1fr; gap: 0.6rem; padding: 0.15rem 0; border: 0;
+    min-width: 0; white-space: normal; overflow-wrap: anywhere; }
+  td::before { content: attr(data-name); color: #404040; font-weight: 400; }
+}
 @media print {
   body { max-width: none; padding: 0; font-size: 10pt; }
   .scroll { overflow: visible; background: none; }
@@ -121,8 +132,9 @@ struct ToHtml {
     text += "</tr></thead>\n<tbody>\n";
     for (const auto& row : table.rows) {
       text += "<tr>";
-      for (const std::string& cell : row)
-        text += fmt::format("<td class=\"{}\">{}</td>", cell_class(cell), escaped(cell));
+      for (std::size_t k = 0; k < row.size(); ++k)
+        text += fmt::format("<td class=\"{}\" data-name=\"{}\">{}</td>", cell_class(row[k]),
+                            k < table.header.size() ? attribute(table.header[k]) : "", escaped(row[k]));
       text += "</tr>\n";
     }
     return text + "</tbody>\n</table></div>\n";

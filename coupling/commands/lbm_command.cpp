@@ -234,7 +234,8 @@ void LbmCommand::read_state() {
   lbm::load_state(simulation_->fluid(), state_to_read_);
   if (!require_same_settings(state_to_read_, *simulation_))
     tell(lmp_, "lbm restart: note: " + state_to_read_ +
-                   " does not say with which settings it was made; they must be those of this script\n");
+                   " does not say with which settings it was made; they must be those of this script "
+                   "(docs/reference/lbm.md#restart)\n");
   if (port_->anything_moves() && !port_->loads_restored())
     throw_user_error(
         {"lbm restart", "read " + state_to_read_, "without the loads of the grains",

@@ -176,7 +176,8 @@ std::string scene_text(const CoupledSettings& settings, const lbm::Units& units,
       "lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells, {} each; {:.3g} GB for the fluid\n", time,
       steps, cells[0], cells[1], cells[2], count_text(settings.substeps, "DEM step"), bytes * 1e-9);
   text += "lbm plan: " + units.summary() + "\n";
-  for (const std::string& note : units.warnings()) text += "lbm plan: note: " + note + "\n";
+  for (const std::string& note : units.warnings())
+    text += "lbm plan: note: " + note + " (docs/reference/lbm.md#fluid-lattice)\n";
   if (grains.grains == 0) return text;
   text += fmt::format("lbm plan: {}, {}\n", count_text(grains.grains, "grain"),
                       sizes_text(grains, units.spacing()));

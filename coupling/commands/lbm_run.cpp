@@ -258,7 +258,7 @@ std::optional<std::string> LbmRun::drag_note() const {
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "
       "water along so fast has too much drag (7 % at 5, 49 % at 30); `lbm collision trt_comoving` leaves "
-      "less than half of it",
+      "less than half of it (docs/what_goes_wrong.md)",
       speed, fastest_grain_);
 }
 
@@ -276,7 +276,7 @@ std::optional<std::string> LbmRun::weight_note() const {
       "{:.4g}: "
       "grains get the buoyancy of the water on top; a weight that is reduced by it counts it twice: give "
       "both "
-      "the same g, or write `lbm effect buoyancy off`",
+      "the same g, or write `lbm effect buoyancy off` (docs/reference/lbm.md#effect)",
       grains->norm(), water.norm());
 }
 

@@ -172,8 +172,9 @@ std::vector<std::string> RunGuards::look(const GuardReading& reading) {
       throw_lost_run({kWho, fmt::format("{} at {:.5g} s{}", finding.name, time, place_of(finding.name)),
                       finding.number, finding.rule, finding.remedy});
     if (finding.value <= kWarnShare * finding.limit || !warned_.insert(finding.name).second) continue;
-    lines.push_back(fmt::format("{}: warning: {} at {:.5g} s = {}{}; the run ends above {:g}", kWho,
-                                finding.name, time, finding.number, place_of(finding.name), finding.limit));
+    lines.push_back(fmt::format(
+        "{}: warning: {} at {:.5g} s = {}{}; the run ends above {:g} (docs/reference/lbm.md#guard)", kWho,
+        finding.name, time, finding.number, place_of(finding.name), finding.limit));
   }
   if (reading.lost_grains == 0) return lines;
   const std::string lost = count_text(reading.lost_grains, "grain");
@@ -182,7 +183,8 @@ std::vector<std::string> RunGuards::look(const GuardReading& reading) {
                     "be none: `lbm guard lost stop`",
                     "close the box with walls, or let a fix of the script take grains away on purpose"});
   if (warned_.insert("lost grains").second)
-    lines.push_back(fmt::format("{}: warning: {} had left the box at {:.5g} s", kWho, lost, time));
+    lines.push_back(fmt::format("{}: warning: {} had left the box at {:.5g} s (docs/reference/lbm.md#guard)",
+                                kWho, lost, time));
   return lines;
 }
 

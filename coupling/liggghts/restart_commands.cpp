@@ -83,6 +83,7 @@ void add_restart_commands(LAMMPS_NS::LAMMPS* lmp) {
   add_command(lmp, "read_restart", &read_restart);
   add_command(lmp, "write_restart", &write_restart);
   add_command(lmp, "restart_set", &restart_set);
+  add_command(lmp, "run", &run_watched);
 }
 
 }  // namespace suffuse::coupling

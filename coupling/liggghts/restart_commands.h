@@ -8,7 +8,7 @@ namespace suffuse::coupling {
 
 /// LIGGGHTS's `read_restart` and `write_restart` with a look at the file: before it is read (LIGGGHTS waits
 /// for ever for what a truncated one lacks), and after it was written (LIGGGHTS does not see that a disk is
-/// full).
+/// full); and `restart_set` and `run` (saving_verlet.h).
 void add_restart_commands(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace suffuse::coupling

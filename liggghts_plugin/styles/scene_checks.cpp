@@ -122,7 +122,7 @@ void tell_meshes_beyond_periodic_faces(LAMMPS* lmp) {
          fmt::format(
              "suffuse: note: mesh {} reaches out of the periodic faces across {}: LIGGGHTS adds copies of "
              "what is outside, and grains that touch a triangle and a copy feel both; end the mesh at "
-             "the faces\n",
+             "the faces (docs/what_goes_wrong.md)\n",
              mesh->id, names));
   }
 }
@@ -143,7 +143,7 @@ void tell_box_of_few_grains(LAMMPS* lmp) {
   tell(lmp, fmt::format(
                 "suffuse: note: the periodic box is {:.3g} m across, its largest grain {:.3g} m: below two "
                 "diameters a pair may touch by two images, which share one tangential spring; take more "
-                "grains\n",
+                "grains (docs/what_goes_wrong.md)\n",
                 shortest, 2 * largest));
 }
 
@@ -163,7 +163,7 @@ void GrainCensus::tell_lost() const {
   tell(lmp_,
        fmt::format(
            "suffuse: note: {} left the box in this run and {} lost; {} {} left (`thermo_modify lost error` "
-           "ends a run that loses one)\n",
+           "ends a run that loses one; docs/what_goes_wrong.md)\n",
            count_text(lost, "grain"), lost == 1 ? "is" : "are", now, now == 1 ? "is" : "are"));
 }
 

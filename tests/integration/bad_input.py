@@ -111,7 +111,7 @@ def check_lost_grains(program, folder):
         "velocity all set 0 0 -0.1\nrun 1000\nrun 15000\nrun 1000\n"
     screen = program.must_run(box, folder)
     lines = [line for line in screen.splitlines() if "left the box" in line]
-    expect(lines == ["suffuse: note: 2 grains left the box in this run and are lost; 1 is left (`thermo_modify lost error` ends a run that loses one)"],
+    expect(lines == ["suffuse: note: 2 grains left the box in this run and are lost; 1 is left (`thermo_modify lost error` ends a run that loses one; docs/what_goes_wrong.md)"],
            f"lost grains: {lines}")
 
 

@@ -2,7 +2,7 @@
 """lbm_interrupted.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
 
 A run that SIGTERM, SIGINT or SIGUSR1 ends: it finishes its fluid step, saves the state where the script asked for restarts, closes its
-files, says where it stopped, and ends with 128 and the signal's number. Taken up again it leaves the monitor's rows of a run
+files, says where it stopped, and ends with 128 and the signal's number; a dry `run` does so, too. Taken up again it leaves the monitor's rows of a run
 that was never interrupted. What a state cannot be taken up with is refused. A plan and held grains beside it.
 """
 import os
@@ -14,7 +14,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, columns, expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
+from scenes import QUICK_STARTS_AND_ENDS, Program, columns, expect, mistakes_not_named, program_from_command_line, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 FLOW = """
@@ -45,7 +45,7 @@ def interrupted(program, text, folder, sent):
     series.unlink(missing_ok=True)
     with open(folder / "screen", "w") as screen:
         run = subprocess.Popen(launcher + [program.suffuse, "-in", "in.stopped", "-log", "log.stopped", "-echo", "none"], cwd=folder,
-                               stdout=screen, stderr=subprocess.STDOUT)
+                               stdout=screen, stderr=subprocess.STDOUT, env=os.environ | QUICK_STARTS_AND_ENDS)
         start = time.monotonic()
         while run.poll() is None and time.monotonic() - start < 100:
             if series.exists() and series.read_text().count("\n") >= 7:
@@ -109,6 +109,19 @@ def check_without_restart(program, folder):
     expect("stopped by" in (folder / "log.stopped").read_text(), "the log does not say it")
 
 
+def check_dry(program, folder):
+    """A dry `run` of a script that saves nothing: LIGGGHTS's restart file of the step at which the signal ends it, and how to go on."""
+    grid = f"{program.ranks} 1 1"
+    print_rows = "variable now equal step\nfix rows all print 20 '${now}' file stopped.csv screen no\n"
+    for sent in (signal.SIGUSR1, signal.SIGINT):
+        code, screen = interrupted(program, wet_box(processors=grid, restart="start") + print_rows + "run 2000000000\nprint 'went on'\n", folder, sent)
+        found = re.findall(rf"^run: stopped by {signal.Signals(sent).name} after step (\d+); the state is in (\S+): go on with `read_restart \2`", screen, re.MULTILINE)
+        expect(code == 128 + sent and len(found) == 1 and found[0][1] == f"stopped_{found[0][0]}.restart" and "went on" not in screen,
+               f"dry: exit code {code} after signal {sent}\n{screen[-1500:]}")
+        screen = program.must_run(wet_box(processors=grid, restart=found[0][1]) + "run 10\nprint 'at step $(step)'\n", folder, "dry")
+        expect(f"at step {int(found[0][0]) + 10}" in screen and not list(folder.glob("*.part")), f"not gone on with:\n{screen[-1500:]}")
+
+
 def check_refusals(program, folder, again):
     """Whatever `lbm clear` would be needed for within a run; values that may change are taken."""
     read = "lbm restart read state.h5\n"
@@ -152,6 +165,7 @@ def main():
         step, worst, again = check_continues(program, folder)
         check_refusals(program, folder, again)
         check_without_restart(program, folder)
+        check_dry(program, folder)
         check_plan_and_held(program, folder)
     print(f"{program.ranks} ranks: stopped at step {step}; rows after a restart within {worst:.1e} of each column's range")
 

@@ -19,7 +19,7 @@ import sys
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, columns, expect, loose_sample, read_sample, scratch  # noqa: E402
+from scenes import QUICK_STARTS_AND_ENDS, Program, columns, expect, loose_sample, read_sample, scratch  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 RUN = "lbm boundary zlo pressure 0.5 zhi pressure 0\n"
@@ -209,7 +209,7 @@ def check_killed(program, folder, kills, kind):
         (folder / "in.killed").write_text(scene(state) + run_line.format(for_ever))
         before = os.stat(folder / "killed").st_mtime_ns if state else 0
         run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.killed", "-log", "none", "-echo", "none"],
-                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=os.environ | QUICK_STARTS_AND_ENDS)
         end = time.monotonic() + 60
         while time.monotonic() < end and (not (folder / "killed").exists() or os.stat(folder / "killed").st_mtime_ns == before):
             time.sleep(0.01)
@@ -245,7 +245,7 @@ def check_killed_series(program, folder, kills):
             break
         (folder / "in.series").write_text(text + "lbm run 1000\n")
         run = subprocess.Popen([program.mpirun, str(program.ranks), program.suffuse, "-in", "in.series", "-log", "none", "-echo", "none"],
-                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                               cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=os.environ | QUICK_STARTS_AND_ENDS)
         before = os.stat(folder / "series").st_mtime_ns if state else 0
         end = time.monotonic() + 60
         while time.monotonic() < end and (not (folder / "series").exists() or os.stat(folder / "series").st_mtime_ns == before):

@@ -2,8 +2,10 @@
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 SOURCE = pathlib.Path(os.environ.get("SUFFUSE_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
@@ -147,6 +149,35 @@ class CompressionFigure(unittest.TestCase):
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             sizes.append(int.from_bytes(data[20:24], "big"))
         self.assertGreater(sizes[1], 1.6 * sizes[0])  # four panels against two
+
+    def wait_for(self, condition, process, seconds=60):
+        end = time.monotonic() + seconds
+        while not condition():
+            self.assertIsNone(process.poll(), "ended by itself")
+            self.assertLess(time.monotonic(), end, "the picture does not follow")
+            time.sleep(0.02)
+
+    def test_follow_draws_a_series_that_does_not_exist_yet_again_whenever_it_has_grown(self):
+        figure = self.folder / "figure.png"
+        process = subprocess.Popen([self.python, self.SCRIPT, self.series, "--output", figure, "--follow", "0.05"], stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        with open(self.series, "w") as series:
+            def write(text):
+                series.write(text)
+                series.flush()
+            write("time_s,mean_stress_pa,void_ratio\n0,0,0.6\n1e-3,1e5,0.5\n2e-3,1.")  # half a row, as a run may leave it
+            self.wait_for(figure.exists, process)
+            first = figure.read_bytes()
+            write("5e5,0.45\n3e-3,2e5,0.4\n")
+            self.wait_for(lambda: figure.read_bytes() != first, process)
+        self.assertEqual(figure.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual((process.wait(timeout=60), process.stderr.read()), (0, ""))
+        process.stderr.close()
+        whole = self.folder / "whole.png"
+        self.assertEqual(run(self.python, self.SCRIPT, self.series, "--output", whole).returncode, 0)
+        self.assertEqual(figure.read_bytes(), whole.read_bytes())
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["figure.png", "series.csv", "whole.png"])
 
     def test_wrong_series_give_one_line(self):
         cases = [("time_s,void_ratio", ["0,1"], "has no column mean_stress_pa"),

@@ -27,11 +27,19 @@ double error_percent(const std::string& name, double diameter, DragRun run) {
 
 }  // namespace
 
-TEST_CASE("Packings not fitted: drag within 3 % at five cells a Sauter diameter, 2 % at eight") {
+TEST_CASE(
+    "Packings not fitted: drag within 3 % at five cells a Sauter diameter, the densest within 2 % at eight") {
   const std::string packing = GENERATE("random:0.2:64:31", "random:0.4:64:31", "random:0.62:64:31",
                                        "spread:0.5:64:31:0.25", "spread:0.58:64:31:0.4");
   INFO(packing);
   CHECK(std::abs(error_percent(packing, 5, {})) < 3);
+  if (packing == "random:0.62:64:31") CHECK(std::abs(error_percent(packing, 8, {})) < 2);
+}
+
+TEST_CASE("Packings not fitted: drag within 2 % at eight cells a Sauter diameter", "[.long]") {
+  const std::string packing =
+      GENERATE("random:0.2:64:31", "random:0.4:64:31", "spread:0.5:64:31:0.25", "spread:0.58:64:31:0.4");
+  INFO(packing);
   CHECK(std::abs(error_percent(packing, 8, {})) < 2);
 }
 
@@ -74,24 +82,37 @@ TEST_CASE("A second method gives Zick & Homsy's drag: links that end on the sphe
   CHECK(link_wise_drag(array, 16, LinkRule::halfway, 0.3).drag == Approx(7.442).epsilon(0.05));
 }
 
-TEST_CASE("A bed of 2.4 diameters between layers of water has the drag of a lattice three times finer") {
-  // K through the bed at 16 cells (by the same method: the reference is the lattice's own limit); packings 29
-  // and 39 cells wide at 12 and 16 cells a diameter differ by 0.3 to 1.3 %. Measured at five cells +2.6, -1.2
-  // and +2.5 %, mean of two places; set after that, as the aim for thick beds is 3 %.
-  const auto [name, reference] = GENERATE(table<std::string, double>(
-      {{"random:0.6:16:1", 71.578}, {"random:0.6:16:2", 61.523}, {"random:0.6:16:3", 50.931}}));
-  INFO(name);
+namespace {
+
+// A bed of 2.4 diameters between layers of water. K through the bed at 16 cells (by the same method: the
+// reference is the lattice's own limit); packings 29 and 39 cells wide at 12 and 16 cells a diameter differ
+// by 0.3 to 1.3 %. Measured at five cells +2.6, -1.2 and +2.5 %, mean of two places; set after that, as the
+// aim for thick beds is 3 %.
+constexpr double kThinBedDrags[] = {71.578, 61.523, 50.931};
+
+/// A share of that of packing `seed`, mean over two places on the lattice.
+double error_of_thin_bed(int seed, double diameter) {
   DragRun run;
   run.water = 1;
   run.through = true;
-  const auto error = [&](double diameter) {
-    double sum = 0;
-    for (const double offset : {0.3, 0.7}) {
-      run.offset = offset;
-      sum += drag_of(make_packing(name), diameter, run).drag / 2;
-    }
-    return sum / reference - 1;
-  };
-  CHECK(std::abs(error(5)) < 0.04);
-  CHECK(std::abs(error(8)) < 0.025);
+  double sum = 0;
+  for (const double offset : {0.3, 0.7}) {
+    run.offset = offset;
+    sum += drag_of(make_packing("random:0.6:16:" + std::to_string(seed)), diameter, run).drag / 2;
+  }
+  return sum / kThinBedDrags[seed - 1] - 1;
+}
+
+}  // namespace
+
+TEST_CASE("A bed of 2.4 diameters between layers of water has the drag of a lattice three times finer") {
+  const int seed = GENERATE(1, 2, 3);
+  INFO("packing " << seed);
+  CHECK(std::abs(error_of_thin_bed(seed, 5)) < 0.04);
+}
+
+TEST_CASE("A bed of 2.4 diameters has the drag of a lattice twice as fine", "[.long]") {
+  const int seed = GENERATE(1, 2, 3);
+  INFO("packing " << seed);
+  CHECK(std::abs(error_of_thin_bed(seed, 8)) < 0.025);
 }

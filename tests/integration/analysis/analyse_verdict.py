@@ -7,9 +7,11 @@ hand, the HTML page (well-formed, self-contained), figures that their printed co
 import argparse
 import base64
 import html.parser
+import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -191,11 +193,18 @@ def check_flow(program, gradings, figures, python):
     check(f"Porosity: {float(found['porosity at rest']):.4g}, of the bed at rest in `ramp.csv`" in report, "the porosity of the run's bed")
     check("Porosity: 0.31, as given" in program.must_run(*words, "--porosity", "0.31"), "but a given one first")
     if python:
+        # Of an installation, whose figure scripts lie elsewhere.
+        installed = pathlib.Path(shutil.copytree(figures, program.folder / "share/suffuse/figures"))
+        before = os.environ.get("SUFFUSE_FIGURES")
+        os.environ["SUFFUSE_FIGURES"] = str(installed)
         program.must_run(*words, "--output", "flow.md", "--figures", "flowing")
+        os.environ.pop("SUFFUSE_FIGURES")
+        if before is not None:
+            os.environ["SUFFUSE_FIGURES"] = before
         markdown = (program.folder / "flow.md").read_text(encoding="utf-8")
         for name in ("flow", "layers"):
-            command = re.search(rf"`analysis/figures/(\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
-            again = [python, figures / command[0], *command[1:-1], "again.svg"]
+            command = re.search(rf"`({re.escape(str(installed))}/\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
+            again = [python, *command[:-1], "again.svg"]
             done = subprocess.run(again, cwd=program.folder / "flowing", capture_output=True, text=True, timeout=120)
             check(done.returncode == 0, f"{again}: {done.stderr}")
             check((program.folder / "flowing/again.svg").read_bytes() == (program.folder / f"flowing/{name}.svg").read_bytes(), f"{name}: the same figure again")

@@ -4,9 +4,13 @@ The grains are soft (E = 10 MPa at 100 kPa, overlaps of some per cent of a diame
 positions, 1e-18 m or so, stays below 1e-13 of an overlap and results on different ranks can be compared to 1e-12.
 """
 import argparse
+import os
 import pathlib
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+from scenes import QUICK_STARTS_AND_ENDS  # noqa: E402
 
 SPLIT = 0.7e-3  # m; coarse grains of 1.0 mm, fines of 0.4 mm
 
@@ -77,7 +81,7 @@ class Suffuse:
         (self.folder / f"in.{name}").write_text(script)
         launcher = [self.options.mpirun, str(ranks)] if ranks > 1 else []
         done = subprocess.run(launcher + [self.options.suffuse, "-in", f"in.{name}", "-log", f"log.{name}"],
-                              cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240)
+                              cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240, env=os.environ | QUICK_STARTS_AND_ENDS)
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
     def must_run(self, ranks, script, name):

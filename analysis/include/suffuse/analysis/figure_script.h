@@ -14,4 +14,8 @@ namespace suffuse::analysis {
 void make_figure(const std::string& script, const std::vector<std::string>& arguments,
                  const std::string& who);
 
+/// The script as a person calls it from the figure's folder or the source tree: analysis/figures/rose.py in a
+/// source tree, the whole path of an installed one.
+std::string figure_script_as_called(const std::string& script, const std::string& who);
+
 }  // namespace suffuse::analysis
