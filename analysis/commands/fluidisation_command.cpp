@@ -11,6 +11,7 @@
 
 #include "commands/criteria_table.h"
 #include "commands/fluidisation_layers.h"
+#include "commands/hydraulic_table.h"
 #include "commands/onset_table.h"
 #include "commands/output_options.h"
 #include "commands/result_rows.h"
@@ -29,11 +30,9 @@ using namespace micromechanics;
 
 constexpr const char* kWho = "fluidisation";
 
-struct Options {
+struct Options : SeepageOptions {
   OutputOptions outputs;
   std::string file, grading, output, json, onset;
-  double grain_density = 2650;
-  SeepageFluid fluid;
   std::vector<double> window{0.2, 0.8};
   FluidisationSettings settings;
   std::optional<double> porosity, height;
@@ -44,11 +43,7 @@ void check(const Options& options) {
   const auto must = [](bool fine, const char* option, double value, const char* rule) {
     if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, ""});
   };
-  must(options.fluid.density > 0, "--fluid-density", options.fluid.density, "be > 0");
-  must(options.grain_density > options.fluid.density, "--grain-density", options.grain_density,
-       "be above the fluid's");
-  must(options.fluid.kinematic_viscosity > 0, "--viscosity", options.fluid.kinematic_viscosity, "be > 0");
-  must(options.fluid.gravity > 0, "--gravity", options.fluid.gravity, "be > 0");
+  options.check(kWho);
   must(options.window[0] >= 0 && options.window[0] < options.window[1], "--window", options.window[0],
        "be LOW HIGH, 0 <= LOW < HIGH");
   must(options.settings.rise_share > 0 && options.settings.rise_share < 1, "--rise",
@@ -369,11 +364,7 @@ void add_fluidisation(CLI::App& app) {
   command->add_option("--friction", options->layers.friction, "of the contacts in the dumps")
       ->capture_default_str()
       ->needs(dumps);
-  command->add_option("--grain-density", options->grain_density, "kg/m3")->capture_default_str();
-  command->add_option("--fluid-density", options->fluid.density, "kg/m3")->capture_default_str();
-  command->add_option("--viscosity", options->fluid.kinematic_viscosity, "kinematic, m2/s")
-      ->capture_default_str();
-  command->add_option("--gravity", options->fluid.gravity, "m/s2")->capture_default_str();
+  options->add_to(*command);
   options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
   options->outputs.add(*command, "--json", options->json, "JSON file with the same");
   command->callback([options] { run_command(*options); });

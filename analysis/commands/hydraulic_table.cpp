@@ -8,28 +8,40 @@
 
 namespace suffuse::analysis {
 
-void HydraulicInput::add_to(CLI::App& command) {
-  command.add_option("--top-stress", top_stress, "effective stress on the layer, Pa (with --thickness)");
-  command.add_option("--thickness", thickness, "of the layer, m");
+namespace {
+
+void must(bool fine, const std::string& who, const char* option, double value, const char* rule) {
+  if (!fine) throw_user_error({who, option, fmt::format("{:g}", value), rule, ""});
+}
+
+}  // namespace
+
+void SeepageOptions::add_to(CLI::App& command) {
   command.add_option("--grain-density", grain_density, "kg/m3")->capture_default_str();
   command.add_option("--fluid-density", fluid.density, "kg/m3")->capture_default_str();
   command.add_option("--viscosity", fluid.kinematic_viscosity, "kinematic, m2/s")->capture_default_str();
   command.add_option("--gravity", fluid.gravity, "m/s2")->capture_default_str();
 }
 
+void SeepageOptions::check(const std::string& who) const {
+  must(fluid.density > 0, who, "--fluid-density", fluid.density, "be > 0");
+  must(grain_density > fluid.density, who, "--grain-density", grain_density, "be above the fluid's");
+  must(fluid.kinematic_viscosity > 0, who, "--viscosity", fluid.kinematic_viscosity, "be > 0");
+  must(fluid.gravity > 0, who, "--gravity", fluid.gravity, "be > 0");
+}
+
+void HydraulicInput::add_to(CLI::App& command) {
+  command.add_option("--top-stress", top_stress, "effective stress on the layer, Pa (with --thickness)");
+  command.add_option("--thickness", thickness, "of the layer, m");
+  SeepageOptions::add_to(command);
+}
+
 void check_seepage_options(const HydraulicInput& options, const std::string& who) {
-  const auto must = [&](bool fine, const char* option, double value, const char* rule) {
-    if (!fine) throw_user_error({who, option, fmt::format("{:g}", value), rule, ""});
-  };
-  must(options.fluid.density > 0, "--fluid-density", options.fluid.density, "be > 0");
-  must(options.grain_density > options.fluid.density, "--grain-density", options.grain_density,
-       "be above the fluid's");
-  must(options.fluid.kinematic_viscosity > 0, "--viscosity", options.fluid.kinematic_viscosity, "be > 0");
-  must(options.fluid.gravity > 0, "--gravity", options.fluid.gravity, "be > 0");
+  options.check(who);
   for (const HydraulicInput::Alpha& alpha : options.alphas)
-    must(alpha.value >= 0, "--alpha", alpha.value, "be >= 0");
-  if (options.top_stress) must(*options.top_stress >= 0, "--top-stress", *options.top_stress, "be >= 0");
-  if (options.thickness) must(*options.thickness > 0, "--thickness", *options.thickness, "be > 0");
+    must(alpha.value >= 0, who, "--alpha", alpha.value, "be >= 0");
+  if (options.top_stress) must(*options.top_stress >= 0, who, "--top-stress", *options.top_stress, "be >= 0");
+  if (options.thickness) must(*options.thickness > 0, who, "--thickness", *options.thickness, "be > 0");
   if (options.top_stress.has_value() != options.thickness.has_value())
     throw_user_error({who, "--top-stress, --thickness", "one alone", "be given together", ""});
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/hydraulic_table.h"
 #include "commands/output_options.h"
 #include "commands/result_rows.h"
 #include "suffuse/analysis/flow_record.h"
@@ -20,11 +21,10 @@ using namespace micromechanics;
 
 constexpr const char* kWho = "lifting";
 
-struct Options {
+struct Options : SeepageOptions {
   OutputOptions outputs;
   std::string file, output, json;
-  double diameter = 0, grain_density = 2650;
-  SeepageFluid fluid;
+  double diameter = 0;
   std::vector<double> window{0.2, 0.7};
 };
 
@@ -33,11 +33,7 @@ void check(const Options& options) {
     if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, ""});
   };
   must(options.diameter > 0, "--diameter", options.diameter, "be > 0");
-  must(options.fluid.density > 0, "--fluid-density", options.fluid.density, "be > 0");
-  must(options.grain_density > options.fluid.density, "--grain-density", options.grain_density,
-       "be above the fluid's");
-  must(options.fluid.kinematic_viscosity > 0, "--viscosity", options.fluid.kinematic_viscosity, "be > 0");
-  must(options.fluid.gravity > 0, "--gravity", options.fluid.gravity, "be > 0");
+  options.check(kWho);
   must(options.window[0] >= 0 && options.window[0] < options.window[1], "--window", options.window[0],
        "be LOW HIGH, 0 <= LOW < HIGH");
 }
@@ -99,11 +95,7 @@ void add_lifting(CLI::App& app) {
                    "LOW HIGH: part of the weight over which the packed bed's line is fitted")
       ->expected(2)
       ->capture_default_str();
-  command->add_option("--grain-density", options->grain_density, "kg/m3")->capture_default_str();
-  command->add_option("--fluid-density", options->fluid.density, "kg/m3")->capture_default_str();
-  command->add_option("--viscosity", options->fluid.kinematic_viscosity, "kinematic, m2/s")
-      ->capture_default_str();
-  command->add_option("--gravity", options->fluid.gravity, "m/s2")->capture_default_str();
+  options->add_to(*command);
   options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
   options->outputs.add(*command, "--json", options->json, "JSON file with the same");
   command->callback([options] { run(*options); });

@@ -162,6 +162,7 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
     : settings_(with_coefficients(settings)),
       effects_(settings.effects),
       units_(settings.units),
+      virtual_rule_(virtual_mass_rule(settings_, units_)),
       origin_(origin),
       grains_(grains),
       fluid_(fluid_settings(settings, units_), decomposition),
@@ -363,7 +364,6 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   if (effects_.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
   rule.average = settings_.average_force;
   rule.rotation = effects_.rotation != Switch::off;
-  const VirtualMassRule virtual_rule = virtual_mass_rule(settings_, units_);
   const GrainMemory memory = grains_.memory();
   for (int n = 0; n < grains.owned; ++n) {
     const Load exchange{vector_at(force_.data(), n), vector_at(torque_.data(), n)};
@@ -384,7 +384,7 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
       follow(record.acceleration, now.velocity - before.velocity);
       follow(record.angular_acceleration, now.angular_velocity - before.angular_velocity);
     }
-    const VirtualInertia added = virtual_inertia(virtual_rule, now.radius, grains.mass[n]);
+    const VirtualInertia added = virtual_inertia(virtual_rule_, now.radius, grains.mass[n]);
     record.virtual_mass = added.mass;
     record.virtual_moment = added.moment;
     keep(record.velocity, now.velocity);

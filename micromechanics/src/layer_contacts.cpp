@@ -27,6 +27,29 @@ void for_layer_and_all(int layer, int layers, Add add) {
   add(static_cast<std::size_t>(layers));
 }
 
+/// Calls `add` with the number of contacts of each grain of a layer (none: of all) of at least this diameter.
+template <class Add>
+void for_grains_of(const Packing& packing, const HeightLayers& layers, std::optional<int> layer,
+                   double least_diameter, Add add) {
+  const std::vector<int> counts = contacts_per_grain(packing);
+  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
+    const Grain& grain = packing.grains[g];
+    const auto own = layers.of(grain.position[layers.axis]);
+    if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
+    add(counts[g]);
+  }
+}
+
+/// Calls `add` with each contact of a layer (none: of all).
+template <class Add>
+void for_contacts_of(const Packing& packing, const HeightLayers& layers, std::optional<int> layer, Add add) {
+  for (const Contact& contact : packing.contacts) {
+    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
+    if (!own || (layer && *own != *layer)) continue;
+    add(contact);
+  }
+}
+
 /// How many contacts are strong, and their part of the stress along the axis.
 void add_strong_contacts(std::vector<LayerNetwork>& networks, const Packing& packing,
                          const HeightLayers& layers, const std::vector<double>& strong) {
@@ -148,13 +171,9 @@ double own_size_at(const Packing& packing, double finer) {
 ContactCounts coordination_distribution(const Packing& packing, const HeightLayers& layers,
                                         std::optional<int> layer, double least_diameter) {
   ContactCounts shares{};
-  const std::vector<int> counts = contacts_per_grain(packing);
-  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
-    const Grain& grain = packing.grains[g];
-    const auto own = layers.of(grain.position[layers.axis]);
-    if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
-    shares[std::min(static_cast<std::size_t>(counts[g]), shares.size() - 1)] += 1;
-  }
+  for_grains_of(packing, layers, layer, least_diameter, [&](int count) {
+    shares[std::min(static_cast<std::size_t>(count), shares.size() - 1)] += 1;
+  });
   normalise(shares);
   return shares;
 }
@@ -162,14 +181,10 @@ ContactCounts coordination_distribution(const Packing& packing, const HeightLaye
 double mean_coordination(const Packing& packing, const HeightLayers& layers, std::optional<int> layer,
                          double least_diameter) {
   double grains = 0, contacts = 0;
-  const std::vector<int> counts = contacts_per_grain(packing);
-  for (std::size_t g = 0; g < packing.grains.size(); ++g) {
-    const Grain& grain = packing.grains[g];
-    const auto own = layers.of(grain.position[layers.axis]);
-    if (!own || (layer && *own != *layer) || 2 * grain.radius < least_diameter) continue;
+  for_grains_of(packing, layers, layer, least_diameter, [&](int count) {
     grains += 1;
-    contacts += counts[g];
-  }
+    contacts += count;
+  });
   return share(contacts, grains);
 }
 
@@ -186,12 +201,10 @@ ForceShares normal_force_distribution(const Packing& packing, const HeightLayers
                                       std::optional<int> layer, double mean) {
   ForceShares shares{};
   if (!(mean > 0)) return shares;
-  for (const Contact& contact : packing.contacts) {
-    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!own || (layer && *own != *layer)) continue;
+  for_contacts_of(packing, layers, layer, [&](const Contact& contact) {
     const double bin = std::clamp(normal_force(contact) / mean / kForceBin, 0.0, shares.size() - 1.0);
     shares[static_cast<std::size_t>(bin)] += 1;
-  }
+  });
   normalise(shares);
   return shares;
 }
@@ -199,12 +212,10 @@ ForceShares normal_force_distribution(const Packing& packing, const HeightLayers
 SlippingShares slipping_distribution(const Packing& packing, const HeightLayers& layers,
                                      std::optional<int> layer, const SlidingRule& rule) {
   SlippingShares shares{};
-  for (const Contact& contact : packing.contacts) {
-    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!own || (layer && *own != *layer)) continue;
+  for_contacts_of(packing, layers, layer, [&](const Contact& contact) {
     const auto bin = static_cast<std::size_t>(std::clamp(10 * slipping_index(contact), 0.0, 9.0));
     shares[is_sliding(contact, rule) ? shares.size() - 1 : bin] += 1;
-  }
+  });
   normalise(shares);
   return shares;
 }

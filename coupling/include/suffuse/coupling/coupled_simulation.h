@@ -180,6 +180,7 @@ class CoupledSimulation {
   CoupledSettings settings_;
   EffectSettings effects_;
   lbm::Units units_;
+  VirtualMassRule virtual_rule_;
   Vec3 origin_;
   ParticlePort& grains_;
   lbm::Fluid fluid_;
