@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """dense_bed.py --suffuse PROGRAM --bed PROGRAM [--fraction linear] [--precision double] [--ranks 1]
              [--grid "1 1 1"] [--mpirun "mpirun --bind-to core -np"] [--steps 200]
+             [--line "lbm effect comoving on"]...
 
 The dense moving bed of coupled_step_benchmark with grains that LIGGGHTS moves: 7,958 spheres of 5 cells diameter settle in
 84 x 84 x 168 cells with no-slip walls, 10 DEM steps a fluid step. Prints each part of a step in milliseconds and as a
@@ -55,6 +56,7 @@ lbm boundary xlo noslip xhi noslip ylo noslip yhi noslip zlo noslip zhi noslip
 lbm force gravity 0 0 -9.81
 lbm solid fraction {fraction}
 lbm effect lubrication off
+{lines}
 lbm run {warm_up:.12g}
 lbm run {time:.12g}
 """
@@ -81,6 +83,7 @@ def main():
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--grid", help="ranks along x, y and z; default: all along z")
     parser.add_argument("--steps", type=int, default=200)
+    parser.add_argument("--line", action="append", default=[], help="of the script, after those of the fluid")
     options = parser.parse_args()
     suffuse, bed = (str(pathlib.Path(p).resolve()) for p in (options.suffuse, options.bed))
     with tempfile.TemporaryDirectory(prefix="suffuse-") as name:
@@ -91,7 +94,8 @@ def main():
         (folder / "in.bed").write_text(SCRIPT.format(
             high=high, grain_step=TIME_STEP / SUBSTEPS, viscosity=VISCOSITY, spacing=SPACING, fraction=options.fraction,
             relaxation_time=RELAXATION_TIME, precision=options.precision, warm_up=20 * TIME_STEP,
-            time=options.steps * TIME_STEP, processors=options.grid or f"1 1 {options.ranks}"))
+            time=options.steps * TIME_STEP, processors=options.grid or f"1 1 {options.ranks}",
+            lines="\n".join(options.line)))
         run = [suffuse, "-in", "in.bed"]
         if options.ranks > 1:
             run = shlex.split(options.mpirun) + [str(options.ranks)] + run
@@ -104,7 +108,7 @@ def main():
     share = float(re.search(r"(\d+) % of the memory", last).group(1)) / 100
     milliseconds = {part: float(value) for part, value in parts}
     bare = milliseconds["fluid"] * share
-    print(f"{len(centres)} grains, {options.fraction}, {options.precision}, ranks: {options.grid or options.ranks}; bare update {bare:.2f} ms")
+    print(f"{len(centres)} grains, {'; '.join([options.fraction] + options.line)}, {options.precision}, ranks: {options.grid or options.ranks}; bare update {bare:.2f} ms")
     for part, value in list(milliseconds.items()) + [("step", sum(milliseconds.values()))]:
         print(f"{part:22}{value:9.2f} ms{value / bare:8.2f} x bare")
 

@@ -97,6 +97,12 @@ std::vector<Scene> scenes() {
     add("bgk", 128, precision,
         [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::bgk; });
     add("trt_smagorinsky", 128, precision, [](Scene& s) { s.settings.collision.smagorinsky = 0.1; });
+    add("trt_comoving", 128, precision,
+        [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::trt_comoving; });
+    add("trt_comoving_force", 128, precision, [](Scene& s) {
+      s.settings.collision.collision_operator = CollisionOperator::trt_comoving;
+      s.force = Vec3(0, 0, 1e-6);
+    });
     add("central_moments", 128, precision,
         [](Scene& s) { s.settings.collision.collision_operator = CollisionOperator::central_moments; });
     add("central_moments_smagorinsky", 128, precision, [](Scene& s) {

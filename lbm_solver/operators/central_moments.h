@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cell_pack.h"
+#include "moments_to_populations.h"
 
 namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
@@ -32,11 +32,7 @@ struct FourthAtEquilibrium {
 /// after the collision: what the normal ones are beyond rho/3, and the shear.
 template <bool kForced, bool kEddy, class Closure = FourthAtEquilibrium>
 struct CentralMoments {
-  /// After the collision, a quarter of: M_abb, M_aab, M_aabb of a plane.
-  template <class T>
-  struct PlaneMoments {
-    Pack<T> third_a, third_b, fourth;
-  };
+  static constexpr bool kKeepsSums = false;
 
   /// What every plane needs: raw second moments after the collision, whole.
   template <class T>
@@ -47,12 +43,13 @@ struct CentralMoments {
     Pack<T> third_source[3];  ///< a quarter of k_abb; only with a force
   };
 
-  /// The four populations of plane (a, b): directions `first` = (+,+) and `second` = (+,-) and their
-  /// opposites. `shear` is k_ab after the collision, `shift` what M_ab has besides.
+  /// Makes the four populations of plane (a, b), see put_plane. `shear` is k_ab after the collision, `shift`
+  /// what M_ab has besides.
   template <class T, class Populations>
-  [[gnu::always_inline]] static PlaneMoments<T> put_plane(Populations& g, int first, int second, int a, int b,
-                                                          const CellPack<T>& cell, const Relaxed<T>& relaxed,
-                                                          const Pack<T>& shear, const Pack<T>& shift) {
+  [[gnu::always_inline]] static PlaneMoments<T> make_plane(Populations& g, int first, int second, int a,
+                                                           int b, const CellPack<T>& cell,
+                                                           const Relaxed<T>& relaxed, const Pack<T>& shear,
+                                                           const Pack<T>& shift) {
     using V = Pack<T>;
     const V &u = cell.velocity[a], &v = cell.velocity[b];
     const V &qu = relaxed.quarter_u[a], &qv = relaxed.quarter_u[b];
@@ -70,12 +67,7 @@ struct CentralMoments {
       m.fourth = (u * m.third_a + fourth) + (v * m.third_b - (qu * v) * shift);
     }
     const V second_moment = T(0.25) * (shear + shift);
-    const V plus = m.fourth + second_moment, minus = m.fourth - second_moment;
-    const V sum = m.third_a + m.third_b, difference = m.third_a - m.third_b;
-    g.put(first, plus + sum);
-    g.put(first + 1, plus - sum);
-    g.put(second, minus + difference);
-    g.put(second + 1, minus - difference);
+    put_plane<T>(g, first, second, m, second_moment);
     return m;
   }
 
@@ -128,27 +120,10 @@ struct CentralMoments {
       relaxed.quarter_u[a] = T(0.25) * u[a];
       if constexpr (kForced) relaxed.third_source[a] = T(1. / 24) * cell.force[a];
     }
-    const auto in_xy = put_plane<T>(g, 7, 9, 0, 1, cell, relaxed, shear[0], shift[0]);
-    const auto in_xz = put_plane<T>(g, 11, 13, 0, 2, cell, relaxed, shear[1], shift[1]);
-    const auto in_yz = put_plane<T>(g, 15, 17, 1, 2, cell, relaxed, shear[2], shift[2]);
-    put_axis<T>(g, 0, cell, normal[0], in_xy.third_a + in_xz.third_a, in_xy.fourth + in_xz.fourth);
-    put_axis<T>(g, 1, cell, normal[1], in_xy.third_b + in_yz.third_a, in_xy.fourth + in_yz.fourth);
-    put_axis<T>(g, 2, cell, normal[2], in_xz.third_b + in_yz.third_b, in_xz.fourth + in_yz.fourth);
-    g.put(0, (cell.density_deviation - ((normal[0] + normal[1]) + normal[2])) +
-                 T(4) * ((in_xy.fourth + in_xz.fourth) + in_yz.fourth));
-  }
-
-  /// The two populations along an axis take what the planes leave of momentum and second moment; `third` and
-  /// `fourth` are quarters.
-  template <class T, class Populations>
-  [[gnu::always_inline]] static void put_axis(Populations& g, int axis, const CellPack<T>& cell,
-                                              const Pack<T>& second, const Pack<T>& third,
-                                              const Pack<T>& fourth) {
-    Pack<T> momentum = cell.momentum[axis];
-    if constexpr (kForced) momentum = momentum + T(0.5) * cell.force[axis];  // the whole force by now
-    const Pack<T> even = T(0.5) * second - T(2) * fourth, odd = T(0.5) * momentum - T(2) * third;
-    g.put(2 * axis + 1, even + odd);
-    g.put(2 * axis + 2, even - odd);
+    const auto in_xy = make_plane<T>(g, 7, 9, 0, 1, cell, relaxed, shear[0], shift[0]);
+    const auto in_xz = make_plane<T>(g, 11, 13, 0, 2, cell, relaxed, shear[1], shift[1]);
+    const auto in_yz = make_plane<T>(g, 15, 17, 1, 2, cell, relaxed, shear[2], shift[2]);
+    put_axes_and_rest<kForced, T>(g, cell, normal, in_xy, in_xz, in_yz);
   }
 };
 

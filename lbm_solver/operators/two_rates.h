@@ -44,19 +44,12 @@ template <class T>
              (tangential[0] * tangential[0] + tangential[1] * tangential[1] + tangential[2] * tangential[2]);
 }
 
-/// Moments as the lattice has them: nothing is added to the parts of pairs.
-struct LatticeFrame {
-  static constexpr bool kAdds = false;
-  template <class T>
-  struct Parts {};
-};
-
 /// BGK and TRT: even and odd parts of each pair of directions relax at their own rates (thesis eq 3.22 for
 /// equal ones; docs key: ginzburg2008), with Guo's force term split the same way (docs key: guo2002).
-///
-/// `Frame` says whose moments these are: the lattice's, or, with what ComovingFrame adds, the fluid's.
-template <bool kForced, bool kEddy, class Frame = LatticeFrame>
+template <bool kForced, bool kEddy>
 struct TwoRates {
+  static constexpr bool kKeepsSums = false;
+
   /// What pairs of one weight share. With s and d the sum and difference of a pair, the pair after the
   /// collision is E + O and E - O with
   ///   E = keep_even s + (slope . c) (u . c) + isotropic,
@@ -71,17 +64,12 @@ struct TwoRates {
   template <int Direction, class T, class Populations>
   [[gnu::always_inline]] static void relax_pair(Populations& g, const CellPack<T>& cell,
                                                 const Pack<T>& keep_even, const Pack<T>& keep_odd,
-                                                const Shared<T>& shared,
-                                                const typename Frame::template Parts<T>& parts) {
+                                                const Shared<T>& shared) {
     const Pack<T> forward = g.get(Direction), backward = g.get(Direction + 1);
     const Pack<T> sum = forward + backward, difference = forward - backward;
     const Pack<T> cu = along<Direction>(cell.velocity), slope = along<Direction>(shared.slope);
-    Pack<T> even = keep_even * sum + (slope * cu + shared.isotropic);
-    Pack<T> odd = keep_odd * difference + along<Direction>(shared.odd);
-    if constexpr (Frame::kAdds) {
-      even = even + parts.template even<Direction>();
-      odd = odd + parts.template odd<Direction>();
-    }
+    const Pack<T> even = keep_even * sum + (slope * cu + shared.isotropic);
+    const Pack<T> odd = keep_odd * difference + along<Direction>(shared.odd);
     g.put(Direction, even + odd);
     g.put(Direction + 1, even - odd);
   }
@@ -91,23 +79,10 @@ struct TwoRates {
                                              const KernelCall<T>& call) {
     const auto& u = cell.velocity;
     Pack<T> even_rate = broadcast<T>(call.even_rate), odd_rate = broadcast<T>(call.odd_rate);
-    Stress<T> stress;
-    if constexpr (kEddy || Frame::kAdds) stress = stress_of<kForced, T>(g, cell);
     if constexpr (kEddy) {
-      const Pack<T> tau = eddy_relaxation_time<T>(call, squared<T>(stress), cell.inverse_density);
-      if (call.single_rate) {
-        even_rate = odd_rate = T(1) / tau;
-      } else {  // 1/tau and half/(half/2 + Lambda) with one division
-        const Pack<T> half = tau - T(0.5), divisor = T(0.5) * half + call.magic;
-        const Pack<T> inverse = T(1) / (tau * divisor);
-        even_rate = divisor * inverse;
-        odd_rate = (half * tau) * inverse;
-      }
-    }
-    typename Frame::template Parts<T> parts;
-    if constexpr (Frame::kAdds) {
-      parts = Frame::template parts<T>(g, cell, stress, even_rate, odd_rate);
-      odd_rate = even_rate;
+      const Pack<T> squared_stress = squared<T>(stress_of<kForced, T>(g, cell));
+      rates_under<T>(call, eddy_relaxation_time<T>(call, squared_stress, cell.inverse_density), even_rate,
+                     odd_rate);
     }
     const Pack<T> u2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
     Pack<T> isotropic = even_rate * (cell.density_deviation - (T(1.5) * cell.density) * u2);
@@ -135,18 +110,16 @@ struct TwoRates {
       diagonals.odd[a] = T(0.5) * axes.odd[a];
     }
     const Pack<T> keep_even = T(0.5) - T(0.5) * even_rate, keep_odd = T(0.5) - T(0.5) * odd_rate;
-    Pack<T> rest = (T(1) - even_rate) * g.get(0) + w0 * isotropic;
-    if constexpr (Frame::kAdds) rest = rest + parts.rest();
-    g.put(0, rest);
-    relax_pair<1, T>(g, cell, keep_even, keep_odd, axes, parts);
-    relax_pair<3, T>(g, cell, keep_even, keep_odd, axes, parts);
-    relax_pair<5, T>(g, cell, keep_even, keep_odd, axes, parts);
-    relax_pair<7, T>(g, cell, keep_even, keep_odd, diagonals, parts);
-    relax_pair<9, T>(g, cell, keep_even, keep_odd, diagonals, parts);
-    relax_pair<11, T>(g, cell, keep_even, keep_odd, diagonals, parts);
-    relax_pair<13, T>(g, cell, keep_even, keep_odd, diagonals, parts);
-    relax_pair<15, T>(g, cell, keep_even, keep_odd, diagonals, parts);
-    relax_pair<17, T>(g, cell, keep_even, keep_odd, diagonals, parts);
+    g.put(0, (T(1) - even_rate) * g.get(0) + w0 * isotropic);
+    relax_pair<1, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<3, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<5, T>(g, cell, keep_even, keep_odd, axes);
+    relax_pair<7, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<9, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<11, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<13, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<15, T>(g, cell, keep_even, keep_odd, diagonals);
+    relax_pair<17, T>(g, cell, keep_even, keep_odd, diagonals);
   }
 };
 

@@ -69,4 +69,19 @@ template <class T>
                                      call.eddy_coefficient * square_root(stress_squared) * inverse_density));
 }
 
+/// Even and odd rate of a cell whose relaxation time is tau, with one division: 1/tau and
+/// half/(half/2 + Lambda), half = tau - 1/2; with a single rate 1/tau both.
+template <class T>
+[[gnu::always_inline]] inline void rates_under(const KernelCall<T>& call, const Pack<T>& tau,
+                                               Pack<T>& even_rate, Pack<T>& odd_rate) {
+  if (call.single_rate) {
+    even_rate = odd_rate = T(1) / tau;
+    return;
+  }
+  const Pack<T> half = tau - T(0.5), divisor = T(0.5) * half + call.magic;
+  const Pack<T> inverse = T(1) / (tau * divisor);
+  even_rate = divisor * inverse;
+  odd_rate = (half * tau) * inverse;
+}
+
 }  // namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE

@@ -31,7 +31,8 @@ template <class Operator, class Solid, bool kForced, class T, class Populations>
                                                 const KernelCall<T>& call) {
   CellPack<T> cell;
   add_up<T>(g, cell.density_deviation, cell.momentum);
-  asm volatile("" ::: "memory");  // what comes from memory is read again, not kept on the stack
+  if constexpr (!Operator::kKeepsSums)
+    asm volatile("" ::: "memory");  // what comes from memory is read again, not kept on the stack
   if constexpr (kForced)
     for (int a = 0; a < 3; ++a) cell.force[a] = broadcast<T>(call.force[a]);
   cell.density = T(1) + call.compressibility * cell.density_deviation;
