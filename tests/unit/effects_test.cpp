@@ -74,7 +74,7 @@ TEST_CASE("Effects left to themselves follow the scene") {
   suspension.largest_radius = 20e-3;  // stones rebound as if dry
   CHECK(chosen(suspension).lubrication == Switch::off);
   EffectFacts fast = bed();
-  fast.given_speed = 0.11;  // u dx/nu = 11
+  fast.given_speed = 0.31;  // u dx/nu = 31
   CHECK(chosen(fast).turbulence == Switch::on);
   CoupledSettings asked = water();
   asked.effects.turbulence = Switch::off;
@@ -91,22 +91,22 @@ TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and 
   EffectSwitches all = switches(water());
   all.begin(bed(), 0);
   EffectFacts now = bed();
-  now.water_speed = 0.09;
+  now.water_speed = 0.29;
   CHECK(all.look(now, 1).empty());
-  now.grain_speed = 0.12;
+  now.grain_speed = 0.32;
   const std::vector<std::string> lines = all.look(now, 2);
   REQUIRE(all.state("turbulence").on);
-  CHECK(all.state("turbulence").number.value == Approx(12));
+  CHECK(all.state("turbulence").number.value == Approx(32));
   CHECK(all.state("turbulence").number.source == "fastest grain");
   CHECK(all.state("turbulence").changed_at == 2);
   REQUIRE_FALSE(lines.empty());
   CHECK_THAT(lines.front(),
-             Catch::Contains("turbulence on from 2 s: u dx/nu = 12 (fastest grain), on above 10"));
+             Catch::Contains("turbulence on from 2 s: u dx/nu = 32 (fastest grain), on above 30"));
   now.grain_speed = 0;
-  now.water_speed = 0.06;
+  now.water_speed = 0.2;
   all.look(now, 3);
   CHECK(all.state("turbulence").on);  // within the hysteresis
-  now.water_speed = 0.04;
+  now.water_speed = 0.14;
   all.look(now, 4);
   CHECK_FALSE(all.state("turbulence").on);
   CHECK(all.state("turbulence").changes == 2);
@@ -173,13 +173,13 @@ TEST_CASE("Grains that begin to move, and gravity that comes, are seen at the ne
 
 TEST_CASE("A run that begins with a saved state decides as the one that went on") {
   EffectFacts now = bed();
-  now.grain_speed = 0.12;
+  now.grain_speed = 0.32;
   EffectSwitches first = switches(water());
   first.begin(bed(), 0);
   first.look(now, 1);
   EffectSwitches second = switches(water());
   second.restore(first.record(), "lbm restart read state");
-  now.grain_speed = 0.07;  // within the hysteresis: a run that begins here would leave turbulence off
+  now.grain_speed = 0.2;  // within the hysteresis: a run that begins here would leave turbulence off
   second.begin(now, 2);
   CHECK(second.state("turbulence").on);
   CHECK(second.state("turbulence").changed_at == 1);

@@ -40,7 +40,7 @@ struct EffectState {
   double changed_at = EffectNumber::kNone;  ///< s, the last change during the run; not a number: never
   int changes = 0;
 
-  /// For the manifest and for the line that tells of a change: "u dx/nu = 11.2 (fastest water), on above 10,
+  /// For the manifest and for the line that tells of a change: "u dx/nu = 11.2 (fastest water), on above 30,
   /// off below 5".
   std::string text() const;
 

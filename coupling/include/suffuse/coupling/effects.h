@@ -23,9 +23,10 @@ struct EffectFacts {
 };
 
 /// Grid Reynolds number u dx/nu from which on `turbulence auto` adds an eddy viscosity: above, eddies between
-/// neighbouring cells are neither resolved nor damped. Below, the eddy viscosity C^2 |S| dx^2 (C = 0.1, |S|
-/// at most u/dx) would be less than a tenth of the water's own.
-inline constexpr Hysteresis kGridReynolds{10, 5};
+/// neighbouring cells are neither resolved nor damped. Measured (docs/results/effects.md): up to 30 it takes
+/// less than 3 % of the energy of grains thrown through water, a fifth of what a lattice twice as fine
+/// changes; from 150 on the flow is lost without it.
+inline constexpr Hysteresis kGridReynolds{30, 15};
 
 /// Speed of grains in viscosities a cell, V dx/nu, from which on the drag of a bed that carries its water is
 /// 2 % too large with `trt` (docs/decisions/solid-operator.md).
