@@ -52,7 +52,7 @@ def main():
         refused(["suffuse -in in.x"], [suffuse, "in.x"], cwd=folder)
         refused(["did you mean -screen?"], [suffuse, "-scren", "none"])
         refused(["did you mean precision?"], [suffuse, "-in", scene, "-var", "precison", "float"])
-        refused(["scale = quik", "did you mean quick?", "periodic"], [suffuse, "-in", scene, "-var", "scale", "quik"])
+        refused(["scale = quik", "did you mean quick?", "column"], [suffuse, "-in", scene, "-var", "scale", "quik"])
         script.write_text(BOX + 'print "x is ${x}"\n')
         code, text = answer(suffuse, "-in", script, "-var", "x", "-1", "-log", "none", cwd=folder)
         if code != 0 or "x is -1" not in text:
