@@ -103,7 +103,7 @@ AccuracyChoice choice_with_cells(double cells, double accuracy, const AccuracySc
   choice.errors.resolution = expected_permeability_error(choice.cells);
   set_time_step(choice, accuracy, scene);
   set_operators(choice, accuracy, scene);
-  constexpr double kFloatCost = 0.6, kComovingCost = 1.33;
+  constexpr double kFloatCost = 0.6, kComovingCost = 1.18;
   choice.cost = 1 / (choice.spacing * choice.spacing * choice.spacing * choice.time_step);
   if (choice.precision == lbm::Precision::float_precision) choice.cost *= kFloatCost;
   if (choice.collision == lbm::CollisionOperator::trt_comoving) choice.cost *= kComovingCost;
