@@ -44,8 +44,8 @@ RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit,
 std::string kind_of_note(const std::string& note);
 
 /// The last line of a log in which a program of ours tells an error ("suffuse: error: ...", or that of a
-/// helper in a script's `shell`), or else LIGGGHTS ("ERROR: ..."), which may only follow from it; without what
-/// stands before the message; empty where there is none.
+/// helper in a script's `shell`), or else LIGGGHTS ("ERROR: ..."), which may only follow from it; without
+/// what stands before the message; empty where there is none.
 std::string last_error_in(const std::string& log);
 
 }  // namespace suffuse::analysis
