@@ -1,8 +1,13 @@
 #include "register_styles.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "compute.h"
 #include "error.h"
@@ -140,7 +145,40 @@ void require_style(const Map* styles, const char* kind, char** arg, const char* 
                              (meant.empty() ? "" : meant + " ") + "`suffuse --styles` lists ours"});
 }
 
+/// Words that LIGGGHTS's interpreter knows by itself, beside the commands of its map.
+constexpr const char* kOwnWords =
+    "angle_coeff angle_style atom_modify atom_style bond_coeff bond_style boundary box clear "
+    "communicate compute compute_modify dielectric dihedral_coeff dihedral_style dimension dump "
+    "dump_modify echo fix fix_modify force_dt_reset group hard_particles if improper_coeff "
+    "improper_style include jump kspace_modify kspace_style label lattice log mass min_modify "
+    "min_style modify_timing neighbor newton next package pair_coeff pair_modify pair_style "
+    "pair_write partition print processors quit region reset_timestep restart run_style shell "
+    "soft_particles special_bonds suffix thermo thermo_log thermo_modify thermo_style timestep "
+    "uncompute undump unfix units variable write_restart_on_signal";
+
+/// A UserError for a word that begins a line and is no command.
+void refuse_command(const std::string& word, const std::map<std::string, CommandCreator>& commands) {
+  std::istringstream own(kOwnWords);
+  std::vector<std::string> names(std::istream_iterator<std::string>(own), {});
+  for (const auto& [known, creator] : commands) names.push_back(known);
+  const std::string meant = suffuse::did_you_mean(word, names);
+  suffuse::throw_user_error({"script", "command", word, "be one of LIGGGHTS's or suffuse's",
+                             (meant.empty() ? "" : meant + " ") + "`suffuse --styles` lists ours"});
+}
+
 }  // namespace
+
+/// The library's own, after which a word that it does not know is told with the one that was meant. No
+/// virtual function: this definition takes the place of the library's in `file()` and `if`.
+int LAMMPS_NS::Input::execute_command() {
+  using Function = int (*)(Input*);
+  static const auto of_library =
+      reinterpret_cast<Function>(dlsym(RTLD_NEXT, "_ZN9LAMMPS_NS5Input15execute_commandEv"));
+  if (of_library == nullptr) error->all(FLERR, "this LIGGGHTS has no Input::execute_command");
+  const int code = of_library(this);
+  if (code < 0) refuse_command(command, *(this->*member_of(CommandMap{})));
+  return code;
+}
 
 /// The script's `clear` makes all of LIGGGHTS's parts anew, and would forget ours. It is no virtual function;
 /// this definition takes the place of the library's (which does the same but for the last line).

@@ -143,21 +143,49 @@ Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
   return plan;
 }
 
-/// The least size from which on so many coarse grains are affordable, and what is lost; none where no cut
-/// helps.
-std::optional<std::pair<double, double>> affordable_cut(const Options& options, const Plan& plan) {
-  double low = plan.grading.smallest(), high = plan.split.diameter / options.scale;
-  const auto need = [&](double smallest) {
-    const CutGrading cut = cut_below(plan.grading, smallest);
-    return grains_with_coarse(sample_classes(cut.grading, options.classes), options.coarse,
-                              plan.split.diameter / options.scale);
+struct Cut {
+  double smallest = 0;  ///< m, of the grading as it is
+  double lost = 0;      ///< share of the mass that is finer
+};
+
+/// The least size up to `high`, m, from which on the classes of the grading need at most so many grains; none
+/// where that cut does not help.
+template <class Need>
+std::optional<Cut> least_cut(const Options& options, const Plan& plan, double high, double grains,
+                             const Need& need) {
+  const auto need_from = [&](double smallest) {
+    return need(sample_classes(cut_below(plan.grading, smallest).grading, options.classes));
   };
-  if (need(high) > options.affordable) return std::nullopt;
+  double low = plan.grading.smallest();
+  if (need_from(high) > grains) return std::nullopt;
   for (int k = 0; k < 40; ++k) {
     const double middle = std::sqrt(low * high);
-    (need(middle) > options.affordable ? low : high) = middle;
+    (need_from(middle) > grains ? low : high) = middle;
   }
-  return std::pair{high, cut_below(plan.grading, high).lost};
+  return Cut{high, cut_below(plan.grading, high).lost};
+}
+
+/// Sizes of which the sample has less than one grain: what they are of the mass, and what would hold them.
+std::string rare_sizes_text(const Options& options, const Plan& plan) {
+  std::size_t rare = 0;
+  double mass = 0;
+  for (const SampleClass& one : plan.sample.classes)
+    if (one.grains < 1) {
+      ++rare;
+      mass += one.mass;
+    }
+  if (rare == 0) return "";
+  std::string text = fmt::format(
+      "warning: {} of {} sizes, {:.3g} % of the mass, have less than one grain: with one of each there are "
+      "{:.4g} grains",
+      rare, plan.sample.classes.size(), 100 * mass, std::ceil(grains_with_every_size(plan.classes)));
+  const double high = plan.classes[plan.classes.size() - 2].diameter / options.scale;
+  const auto cut = least_cut(options, plan, high, plan.sample.grains,
+                             [](const auto& classes) { return grains_with_every_size(classes); });
+  if (cut)
+    text += fmt::format("; cut at --smallest {:.3g} (m) {:.0f} hold every size, without {:.3g} % of the mass",
+                        cut->smallest, plan.sample.grains, 100 * cut->lost);
+  return text + "; fewer --classes help too\n";
 }
 
 std::string notes_of(const Options& options, const Plan& plan) {
@@ -177,19 +205,16 @@ std::string notes_of(const Options& options, const Plan& plan) {
         "{:.0f}:1 ({:.4g} to {:.4g} mm)",
         options.coarse, plan.for_coarse, options.affordable, largest / smallest, 1e3 * smallest,
         1e3 * largest);
-    if (const auto cut = affordable_cut(options, plan))
+    const double split = plan.split.diameter / options.scale;
+    if (const auto cut = least_cut(options, plan, split, options.affordable, [&](const auto& classes) {
+          return grains_with_coarse(classes, options.coarse, split);
+        }))
       text += fmt::format("; cut at --smallest {:.3g} (m) they take {:g}, without {:.3g} % of the mass\n",
-                          cut->first, options.affordable, 100 * cut->second);
+                          cut->smallest, options.affordable, 100 * cut->lost);
     else
       text += "; no cut of the fines helps\n";
   }
-  const auto rare = std::count_if(plan.sample.classes.begin(), plan.sample.classes.end(),
-                                  [](const SampleClass& one) { return one.grains < 1; });
-  if (rare > 0)
-    text += fmt::format(
-        "warning: {} of {} sizes have less than one grain: take more grains, or fewer --classes\n", rare,
-        plan.sample.classes.size());
-  return text;
+  return text + rare_sizes_text(options, plan);
 }
 
 std::string screen_text(const Options& options, const Plan& plan) {

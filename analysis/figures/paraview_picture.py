@@ -1,4 +1,4 @@
-"""paraview_picture.py FILE.xdmf --output PICTURE.png [--time SECONDS]: by pvbatch (without a display: xvfb-run -a pvbatch ...), the picture of a run with water.
+"""paraview_picture.py FILE.xdmf --output PICTURE.png [--time SECONDS]: by pvbatch (without a display: xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvbatch ...), the picture of a run with water.
 
 The water in a vertical slice coloured by speed, the grains behind it as spheres, and the force chains as tubes where `lbm output ... contacts` has
 left them: FILE_grains.xdmf and FILE_contacts.xdmf beside FILE.xdmf. The last state, or the one nearest to --time."""

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "suffuse/common/error.h"
@@ -22,29 +24,55 @@ constexpr std::pair<Status, const char*> kNames[] = {{Status::finished, "finishe
                                                      {Status::unsteady, "unsteady"},
                                                      {Status::failed, "failed"},
                                                      {Status::too_long, "too long"}};
-constexpr std::size_t kLongestReason = 400, kLongestNotes = 1000;
-constexpr const char* kNoteMark = "note: ";
+constexpr std::size_t kLongestReason = 400, kLongestNote = 400, kMostNotes = 20;
+constexpr std::size_t kLongestLine = 2000;  // of a log's line no more is looked at
+constexpr const char* kNoteMarks[] = {"note: ", "warning: ", "WARNING: "};
 constexpr const char* kUnsteadyMark = "lbm run: not yet steady";
 
 std::string path_in(const std::string& folder) {
   return (files::path(folder) / "run.json").string();
 }
 
-/// What a run that ended as it should says of itself.
+/// The next line of a log, or false at its end.
+bool next_line(std::ifstream& log, std::string& line) {
+  if (!std::getline(log, line)) return false;
+  line.resize(std::min(line.size(), kLongestLine));
+  return true;
+}
+
+/// What a line of a log notes; empty where it is no note.
+std::string note_in(const std::string& line) {
+  // An effect that has changed: "lbm run: comoving on from 0.31 s: ..."
+  static const std::regex changed("lbm run: (\\w+ (on|off) from [-+.e0-9]+ s: .*)");
+  if (std::smatch found; std::regex_match(line, found, changed)) return found[1];
+  for (const char* mark : kNoteMarks) {
+    const std::size_t at = line.find(mark);
+    if (at != line.npos && (at == 0 || line[at - 1] == ' ')) return line.substr(at + std::strlen(mark));
+  }
+  return "";
+}
+
+/// What a run says of itself, and whether its flow was steady.
 void read_notes(RunRecord& record, const std::string& log) {
   std::ifstream stream(log);
   std::set<std::string> known;
-  for (std::string line; std::getline(stream, line);) {
-    if (line.starts_with(kUnsteadyMark)) {
+  for (std::string line; next_line(stream, line);) {
+    if (line.starts_with(kUnsteadyMark) && record.status == Status::finished) {
       record.status = Status::unsteady;
       record.reason = line.substr(std::strlen("lbm run: "));
     }
-    const std::size_t at = line.find(kNoteMark);
-    if (at == line.npos || (at > 0 && line[at - 1] != ' ')) continue;
-    const std::string note = line.substr(at + std::strlen(kNoteMark));
-    if (known.insert(note).second) record.notes += (record.notes.empty() ? "" : "; ") + note;
+    const std::string note = note_in(line).substr(0, kLongestNote);
+    if (note.empty() || record.notes.size() == kMostNotes) continue;
+    if (known.insert(kind_of_note(note)).second) record.notes.push_back(note);
   }
-  record.notes = record.notes.substr(0, kLongestNotes);
+}
+
+/// Records of before kept one text, or none: the log is read again.
+void take_notes(RunRecord& record, const nlohmann::json& json, const std::string& folder) {
+  if (json.contains("notes") && json["notes"].is_array())
+    record.notes = json["notes"].get<std::vector<std::string>>();
+  else
+    read_notes(record, (files::path(folder) / kRunLog).string());
 }
 
 }  // namespace
@@ -88,29 +116,31 @@ std::optional<RunRecord> read_record(const std::string& folder, const std::strin
     record.wall = json.at("wall_s").get<double>();
     record.core = json.at("core_s").get<double>();
     record.other_cores = json.at("other_cores").get<double>();
-    if (json.contains("notes"))
-      record.notes = json["notes"].get<std::string>();
-    else if (record.status == Status::finished)  // kept before notes were
-      read_notes(record, (files::path(folder) / kRunLog).string());
+    take_notes(record, json, folder);
     return record;
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;  // no record of ours: the run is done again
   }
 }
 
+std::string kind_of_note(const std::string& note) {
+  static const std::regex number("[-+]?[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?");
+  return std::regex_replace(note, number, "#");
+}
+
 std::string last_error_in(const std::string& log) {
+  static const std::regex of_ours("suffuse(?:-\\w+)?: (?:error: (.*)|(internal error.*))");
+  static const std::regex of_liggghts(".*?(?:ERROR: |(ERROR on proc ))(.*)");
   std::ifstream stream(log);
-  std::string last;
-  for (std::string line; std::getline(stream, line);) {
-    for (const char* mark : {"suffuse: error: ", "suffuse: internal error", "ERROR: ", "ERROR on proc "}) {
-      const std::size_t at = line.find(mark);
-      if (at == line.npos || (at != 0 && std::strncmp(mark, "ERROR", 5) != 0)) continue;
-      const bool whole = mark[std::strlen(mark) - 2] != ':';  // the mark is a part of the message
-      last = line.substr(whole ? at : at + std::strlen(mark));
-      break;
-    }
+  std::string ours, liggghts;
+  std::smatch found;
+  for (std::string line; next_line(stream, line);) {
+    if (std::regex_match(line, found, of_ours))
+      ours = found[1].str() + found[2].str();
+    else if (std::regex_match(line, found, of_liggghts))
+      liggghts = found[1].str() + found[2].str();
   }
-  return last.substr(0, kLongestReason);
+  return (ours.empty() ? liggghts : ours).substr(0, kLongestReason);
 }
 
 RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit,
@@ -120,14 +150,12 @@ RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit,
   record.wall = end.wall;
   record.core = end.core;
   record.other_cores = end.other_cores;
+  if (end.how == ProcessEnd::How::exited && end.code == 0) record.status = Status::finished;
+  read_notes(record, log);
+  if (has_results(record)) return record;
   if (end.how == ProcessEnd::How::too_long) {
     record.status = Status::too_long;
     record.reason = fmt::format("stopped after {}, the study's time_limit", duration_text(limit));
-    return record;
-  }
-  if (end.how == ProcessEnd::How::exited && end.code == 0) {
-    record.status = Status::finished;
-    read_notes(record, log);
     return record;
   }
   record.reason = last_error_in(log);

@@ -1,10 +1,12 @@
 #include "suffuse/analysis/study_table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "suffuse/analysis/csv_cell.h"
 #include "suffuse/analysis/record_table.h"
@@ -115,7 +117,7 @@ std::vector<std::size_t> StudyTable::by_time() const {
   return order;
 }
 
-std::string StudyTable::finished_text() const {
+std::string StudyTable::finished_text(const std::vector<Note>& notes) const {
   std::vector<Cells> lines{{""}};
   for (const std::string& name : swept_names(study_)) lines[0].push_back(name);
   const std::size_t texts = lines[0].size();
@@ -124,6 +126,7 @@ std::string StudyTable::finished_text() const {
     lines[0].push_back(quantity.name);
     if (has_reference(quantity)) lines[0].push_back("error");
   }
+  if (!notes.empty()) lines[0].push_back("notes");
   for (const std::size_t i : by_time()) {
     const StudyRow& row = rows_[i];
     if (!has_results(row.record)) continue;
@@ -137,13 +140,14 @@ std::string StudyTable::finished_text() const {
       if (has_reference(study_.quantities[k]))
         cells.push_back(row.errors[k] ? fmt::format("{:+.2g} %", 100 * *row.errors[k]) : "-");
     }
+    if (!notes.empty()) cells.push_back(numbers_of(row, notes));
     lines.push_back(std::move(cells));
   }
   return aligned(lines, texts);
 }
 
 /// Runs that ended in the same way together.
-std::string StudyTable::failed_text() const {
+std::string StudyTable::failed_text(const std::vector<Note>& notes) const {
   std::vector<std::pair<std::string, std::string>> reasons;  // and the runs of each
   for (const StudyRow& row : rows_) {
     if (row.record.status == RunRecord::Status::finished) continue;
@@ -151,25 +155,43 @@ std::string StudyTable::failed_text() const {
     auto known =
         std::find_if(reasons.begin(), reasons.end(), [&](const auto& one) { return one.first == reason; });
     if (known == reasons.end()) known = reasons.emplace(reasons.end(), reason, "");
-    known->second += fmt::format("  {} ({:.3g} s)\n", variables_text(row.run.swept), row.record.wall);
+    known->second += fmt::format("  {} ({:.3g} s)", variables_text(row.run.swept), row.record.wall);
+    if (!row.record.notes.empty()) known->second += ", notes " + numbers_of(row, notes);
+    known->second += '\n';
   }
   std::string text;
   for (const auto& [reason, runs] : reasons) text += reason + '\n' + runs;
   return text;
 }
 
-/// Notes and the number of runs that say them.
-std::string StudyTable::notes_text() const {
-  std::string text;
-  std::vector<std::string> told;
-  for (const StudyRow& row : rows_) {
-    const std::string& notes = row.record.notes;
-    if (notes.empty() || std::find(told.begin(), told.end(), notes) != told.end()) continue;
-    told.push_back(notes);
-    const auto same = std::count_if(rows_.begin(), rows_.end(),
-                                    [&](const StudyRow& other) { return other.record.notes == notes; });
-    text += fmt::format("noted by {}: {}\n", count_text(same, "run"), notes);
-  }
+/// Each kind of note once, in the order of the rows, its first text, and how many runs have it.
+std::vector<StudyTable::Note> StudyTable::notes() const {
+  std::vector<Note> all;
+  for (const StudyRow& row : rows_)
+    for (const std::string& text : row.record.notes) {
+      const std::string kind = kind_of_note(text);
+      auto known = std::find_if(all.begin(), all.end(), [&](const Note& one) { return one.kind == kind; });
+      if (known == all.end()) known = all.insert(all.end(), Note{kind, text, 0});
+      ++known->runs;
+    }
+  return all;
+}
+
+/// The numbers of a run's notes in that list: "1, 3".
+std::string StudyTable::numbers_of(const StudyRow& row, const std::vector<Note>& notes) const {
+  std::set<std::ptrdiff_t> numbers;
+  for (const std::string& text : row.record.notes)
+    numbers.insert(1 + (std::find_if(notes.begin(), notes.end(),
+                                     [&](const Note& one) { return one.kind == kind_of_note(text); }) -
+                        notes.begin()));
+  return fmt::format("{}", fmt::join(numbers, ", "));
+}
+
+std::string StudyTable::notes_text(const std::vector<Note>& notes) const {
+  if (notes.empty()) return "";
+  std::string text = "notes of the runs, each as the first that has it says it:\n";
+  for (std::size_t k = 0; k < notes.size(); ++k)
+    text += fmt::format("  {} ({}): {}\n", k + 1, count_text(notes[k].runs, "run"), notes[k].text);
   return text;
 }
 
@@ -197,7 +219,8 @@ std::string StudyTable::extrapolated_text() const {
 
 std::string StudyTable::text() const {
   const bool by_wall = time_ == StudyTime::wall;
-  std::string text = finished_text();
+  const std::vector<Note> notes = this->notes();
+  std::string text = finished_text(notes);
   if (judged() > 0)
     text += fmt::format("*: no other run is both faster ({} time) and more accurate{}\n",
                         by_wall ? "wall" : "core", study_.finest.empty() ? "" : "; r: the reference");
@@ -205,8 +228,8 @@ std::string StudyTable::text() const {
                   [](const StudyRow& row) { return row.record.status == RunRecord::Status::unsteady; }))
     text += "u: not steady yet; takes no part, nor is it a reference\n";
   text += extrapolated_text();
-  text += failed_text();
-  text += notes_text();
+  text += failed_text(notes);
+  text += notes_text(notes);
   double other = 0;
   for (const StudyRow& row : rows_) other = std::max(other, row.record.other_cores);
   if (other > kOtherLoad && by_wall)
@@ -261,9 +284,9 @@ void StudyTable::write_csv(const std::string& path) const {
     for (std::size_t k = 0; k < study_.quantities.size(); ++k)
       line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target_of(k), ""),
                           row.errors[k] ? fmt::format("{:.6g}", *row.errors[k]) : "");
-    line +=
-        fmt::format(",{},{:d},{:d},{},{}", row.error ? fmt::format("{:.6g}", *row.error) : "", row.on_front,
-                    row.run.is_reference, csv_text(row.record.reason), csv_text(row.record.notes));
+    line += fmt::format(",{},{:d},{:d},{},{}", row.error ? fmt::format("{:.6g}", *row.error) : "",
+                        row.on_front, row.run.is_reference, csv_text(row.record.reason),
+                        csv_text(fmt::format("{}", fmt::join(row.record.notes, "; "))));
     file.write(line + extrapolation_cells(study_, groups, i) + '\n');
   }
   file.commit();

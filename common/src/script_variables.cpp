@@ -33,7 +33,8 @@ void add(std::vector<std::string>& list, const std::string& text) {
 /// What a script has instead of a name that it has not; the one that was meant first.
 std::string known_for(const std::string& name, const std::vector<std::string>& settable) {
   const std::string meant = did_you_mean(name, settable);
-  return fmt::format("{}{}it has {}", meant, meant.empty() ? "" : " ", fmt::join(settable, ", "));
+  return fmt::format("{}{}it has {}", meant, meant.empty() ? "" : " ",
+                     settable.empty() ? "none" : fmt::format("{}", fmt::join(settable, ", ")));
 }
 
 /// A file's name with variables in it as a pattern: each stands for any text.

@@ -127,6 +127,16 @@ double grains_with_coarse(std::span<const GradingClass> classes, double coarse, 
   return share > 0 ? coarse / share : std::numeric_limits<double>::infinity();
 }
 
+double grains_with_every_size(std::span<const GradingClass> classes) {
+  double sum = 0, least = std::numeric_limits<double>::infinity();
+  for (const GradingClass& one : classes) {
+    const double number = one.mass / std::pow(one.diameter, 3);
+    sum += number;
+    least = std::min(least, number);
+  }
+  return sum / least;
+}
+
 double placing_solid_fraction(std::span<const GradingClass> classes) {
   double large = 0, all = 0;
   for (const GradingClass& one : classes) {

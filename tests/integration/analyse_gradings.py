@@ -9,6 +9,7 @@ import csv
 import gzip
 import math
 import pathlib
+import re
 import sys
 import tempfile
 import time
@@ -135,6 +136,12 @@ def samples(run, gradings):
     wide = run.write("wide.csv", WIDE)
     result = run("sample", wide, "--output", "wide_sample", "--variables-only")
     expect("take 1.209e+06 grains, more than 150000" in result.stdout and "cut at --smallest 0.000243" in result.stdout, result.stdout)
+    # Sizes that so few grains do not hold are told, and the cut that is told holds them.
+    result = run("sample", wide, "--grains", 3000, "--output", "wide_sample", "--variables-only", "--overwrite")
+    rare = re.search(r"sizes, (\S+) % of the mass, have less than one grain: with one of each there are (\S+) grains; cut at --smallest (\S+) \(m\) 3000 hold every size", result.stdout)
+    expect(rare and float(rare[1]) > 20 and float(rare[2]) > 1e6, result.stdout)
+    result = run("sample", wide, "--grains", 3000, "--smallest", 1.01 * float(rare[3]), "--output", "wide_sample", "--variables-only", "--overwrite")
+    expect("less than one grain" not in result.stdout, result.stdout)
     result = run("sample", wide, "--smallest", 5.2e-4, "--output", "cut", "--grains", 3000, "--scale", 10)
     expect("24 % of the mass are finer and left out" in result.stdout, result.stdout)
     sizes = [float(row["diameter_m"]) for row in rows_without_comments(run.folder / "cut.csv")]

@@ -18,6 +18,10 @@ LINES = [  # a line of a script, what the refusal must say
     ("lbm monitor m every 1 file f.csv eroded_mas 1e-3", ["did you mean eroded_mass?"]),
     ("fix s all stress/sevro isotropic 1e5", ["fix s", "style = stress/sevro", "did you mean stress/servo?"]),
     ("fix m all nve/spere", ["did you mean nve/sphere?"]),  # LIGGGHTS's own too
+    ("pair_stile gran model hertz", ["command = pair_stile", "did you mean pair_style?"]),
+    ("lmb fluid density 1000", ["did you mean lbm?"]),
+    ("dem_timestp rayleigh 0.1", ["did you mean dem_timestep?"]),
+    ("if \"1 == 1\" then \"unfx gravity\"", ["did you mean unfix?"]),
     ("compute z all cordination", ["compute z", "did you mean coordination?"]),
     ("compute z all qqqqqqq", ["style = qqqqqqq", "--styles"]),
 ]

@@ -3,8 +3,9 @@
 
 The scenes of input_scripts/ run to their ends on very small, very soft samples, leave what their READMEs say, and keep the
 stresses that they impose; the isotropic one goes on from its restart file, and its final state is found by `suffuse-analyse reproduce`
-(the program $SUFFUSE_ANALYSE) with the numbers that the run had.
+(the program $SUFFUSE_ANALYSE) with the numbers that the run had. Their dumps are what OVITO reads, by the rules of its manual.
 """
+import ast
 import csv
 import math
 import os
@@ -15,6 +16,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "support"))
+import ovito_rules  # noqa: E402
 from scenes import columns, expect, program_from_command_line, scratch  # noqa: E402
 
 SCENES = ROOT / "input_scripts"
@@ -51,6 +53,24 @@ def check_snapshots(folder, strains):
     for strain in strains:
         expect(len(grains_of(folder / f"shear_{strain}.grains.dump")) > 150, f"no grains at {strain}")
         expect((folder / f"shear_{strain}.contacts.dump").stat().st_size > 1000, f"no contacts at {strain}")
+    ovito_rules.check_grains_and_contacts(folder / f"shear_{strains[0]}.grains.dump", folder / f"shear_{strains[0]}.contacts.dump", ovito_columns())
+
+
+def ovito_columns():
+    """What docs/how_to.md says the columns of contacts are in OVITO."""
+    page = (ROOT / "docs/how_to.md").read_text(encoding="utf-8")
+    return ast.literal_eval(re.search(r"columns=(\[.*?\])\)", page, re.DOTALL)[1])
+
+
+def check_dumps_of_scenes():
+    """Every scene's dump of grains has what OVITO takes by itself."""
+    wanted = {"Particle Identifier", "Particle Type", "Position.X", "Position.Y", "Position.Z", "Radius"}
+    dumps = [(script, line.split()[5:]) for script in SCENES.rglob("*") if script.name.startswith("in.") or script.suffix == ".inc"
+             for line in script.read_text(encoding="utf-8").splitlines() if re.match(r"dump\s+\S+ \S+ custom ", line)]
+    expect(len(dumps) >= 3, f"{len(dumps)} dumps of grains in the scenes")
+    for script, words in dumps:
+        missing = wanted - set(ovito_rules.properties_of(words))
+        expect(not missing, f"{script}: its dump of grains has no {missing}")
 
 
 def check_continued_shear(run, folder):
@@ -94,6 +114,7 @@ def check_own_column(run, folder):
 
 
 def main():
+    check_dumps_of_scenes()
     program = program_from_command_line(__doc__)
 
     def run(scene, folder, **variables):

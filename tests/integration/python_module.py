@@ -115,7 +115,9 @@ def main():
             reader = pathlib.Path(__file__).with_name("contacts_in_paraview.py")
             subprocess.run([options.pvpython, reader, folder / "bed_contacts.xdmf", str(contacts)], check=True)
         if options.picture and shutil.which("xvfb-run") and shutil.which("pvbatch"):
-            done = subprocess.run(["xvfb-run", "-a", "pvbatch", options.picture, folder / "bed.xdmf", "--output", folder / "p.png"], capture_output=True, text=True)
+            # Without -noreset the server begins anew when ParaView's first look at it ends, and may miss the second.
+            display = ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset"]
+            done = subprocess.run([*display, "pvbatch", options.picture, folder / "bed.xdmf", "--output", folder / "p.png"], capture_output=True, text=True)
             expect(done.returncode == 0 and (folder / "p.png").stat().st_size > 5000 and "ERR" not in done.stdout + done.stderr, f"picture: {done.stdout}{done.stderr}")
 
 

@@ -235,7 +235,7 @@ def check_unsteady(study):
     out = study.must_run(study.write("unsteady.toml", TINY_STUDY.replace("1.5", "1.1")), "--out", "unsteady", "--no-figure")
     rows = study.rows("unsteady")
     check([(row["status"], row["front"], row["notes"]) for row in rows] == [("unsteady", "0", "on its way"), ("finished", "1", "")], f"{rows}")
-    check(rows[0]["answer"] == "1" and "unsteady: not yet steady after 0.1 s" in out and "noted by 1 run: on its way" in out and "the most accurate: value=2" in out, out)
+    check(rows[0]["answer"] == "1" and "unsteady: not yet steady after 0.1 s" in out and "\n  1 (1 run): on its way\n" in out and "the most accurate: value=2" in out, out)
     study.write("in.tiny", TINY)
 
 

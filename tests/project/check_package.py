@@ -38,7 +38,7 @@ def main():
             root = folder / "root"
             (root / "var/lib/dpkg/info").mkdir(parents=True, exist_ok=True)
             (root / "var/lib/dpkg/status").touch()
-            run("dpkg", f"--root={root}", "--force-depends", "--force-not-root", "--force-script-chrootless", "--install", file)
+            run("dpkg", f"--root={root}", f"--log={folder / 'dpkg.log'}", "--force-depends", "--force-not-root", "--force-script-chrootless", "--install", file)
         scene = folder / "in.scene"
         scene.write_text(SCENE)
         run(root / "usr/bin/suffuse", "-in", scene, "-log", "none", cwd=folder)

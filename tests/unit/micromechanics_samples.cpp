@@ -110,6 +110,15 @@ TEST_CASE("recovered gradings have the numbers of grains that the thesis prints"
   }
 }
 
+TEST_CASE("grains with every size: one of the rarest, the others by their mass over the cube of the size") {
+  // Equal masses of 1, 2 and 4 mm: 64, 8 and 1 grain.
+  const std::vector<GradingClass> classes{{1e-3, 0.2}, {2e-3, 0.2}, {4e-3, 0.2}};
+  CHECK(grains_with_every_size(classes) == Approx(73));
+  // With a hundredth of the mass the finest is the rarest: 0.64, 8 and 1.
+  CHECK(grains_with_every_size(std::vector<GradingClass>{{1e-3, 0.002}, {2e-3, 0.2}, {4e-3, 0.2}}) ==
+        Approx(9.64 / 0.64));
+}
+
 TEST_CASE("recovered gradings have the ratios of Kezdi, and of Kenney and Lau, that Table 4.1 prints") {
   struct Row {
     const char* name;

@@ -201,6 +201,8 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
         }).find("used by in.scene; it has case, tau, speed") != std::string::npos);
   CHECK(message_of([&] { variables.require("d", "x"); }).find("`variable d index VALUE`") !=
         std::string::npos);
+  const std::string without = scratch.write("in.without", "print \"no variables\"\n");
+  CHECK(message_of([&] { ScriptVariables(without, "x").require("speed", "x"); }).ends_with("it has none"));
   // A folder that is not known may hold a file that uses the name.
   CHECK_NOTHROW(variables.require_known("unseen", "x"));
   const ScriptVariables all(script, "x", {{"output", scratch.path.string()}});
@@ -263,14 +265,13 @@ TEST_CASE("a run that is not steady yet takes no part and is no reference") {
   StudyRow finest = row("9", 50, 50, 2.0), fast = row("1", 1, 1, 2.02), slow = row("2", 5, 5, 2.2);
   finest.run.is_reference = true;
   fast.record.status = RunRecord::Status::unsteady;
-  fast.record.notes = "relaxation time is large";
+  fast.record.notes = {"relaxation time 1.2 is large"};
   StudyTable table(study, StudyTime::wall);
   for (const StudyRow& one : {fast, slow, finest}) table.add(one);
   CHECK_FALSE(table.rows()[0].on_front);
   CHECK(table.rows()[1].on_front);
   CHECK(*table.rows()[0].error == Approx(0.01));
   CHECK(table.verdict().find("n=2") != std::string::npos);
-  CHECK(table.text().find("noted by 1 run: relaxation time is large") != std::string::npos);
   CHECK(table.text().find("u: not steady yet") != std::string::npos);
   finest.record.status = RunRecord::Status::unsteady;
   StudyTable without(study, StudyTime::wall);
@@ -278,18 +279,53 @@ TEST_CASE("a run that is not steady yet takes no part and is no reference") {
   CHECK_FALSE(without.rows()[0].error);
 }
 
+TEST_CASE("the table says which runs noted what, also those that failed, alike notes under one number") {
+  Study study;
+  study.quantities.resize(1);
+  study.quantities[0].name = "k";
+  study.quantities[0].reference = 2;
+  study.sweeps = {{{"n", {"1", "2", "3", "4"}}}};
+  StudyRow one = row("1", 1, 1, 2.02), two = row("2", 5, 5, 2.2), three = row("3", 7, 7, 2), four = one;
+  one.record.notes = {"density 1.5 % off at 3e-05 s", "contacts are soft"};
+  two.record.notes = {"density 2 % off at 0.1 s"};
+  four.run.swept[0].second = "4";
+  four.record.status = RunRecord::Status::failed;
+  four.record.reason = "Mach number";
+  four.record.notes = {"other", "contacts are soft"};
+  StudyTable table(study, StudyTime::wall);
+  one.place = 1, two.place = 2, three.place = 3, four.place = 4;
+  for (const StudyRow& each : {three, two, one, four}) table.add(each);
+  const std::string text = table.text();
+  INFO(text);
+  const auto says = [&](const std::string& part) { return text.find(part) != std::string::npos; };
+  CHECK(says("error  notes\n"));
+  CHECK(says("+1 %   1, 2\n"));
+  CHECK(says("+10 %      1\n"));
+  CHECK(says("+0 %\n"));
+  CHECK(says("failed: Mach number\n  n=4 (1 s), notes 2, 3\n"));
+  CHECK(says(
+      "  1 (2 runs): density 1.5 % off at 3e-05 s\n  2 (2 runs): contacts are soft\n  3 (1 run): other\n"));
+  StudyTable silent(study, StudyTime::wall);
+  silent.add(three);
+  CHECK(silent.text().find("notes") == std::string::npos);
+}
+
 TEST_CASE("a run's own notes become its record's, and say whether it was steady") {
   const Scratch scratch;
   ProcessEnd end;
   const std::string log =
       scratch.write("log.txt",
-                    "lbm run: note: grains are fast\nnote: low viscosity\nnote: low viscosity\nfootnote: no\n"
+                    "lbm run: note: grains are fast\nnote: viscosity 1e-07\nnote: viscosity 2\nfootnote: no\n"
+                    "WARNING: kappa < 1000\nlbm run: warning: Mach number at 2 s = 0.2\n"
+                    "lbm run: comoving on from 1.5e-05 s: grains at 2 viscosities a cell\nlbm run: 2 s\n"
                     "lbm run: not yet steady after 0.2 s\n");
   const RunRecord record = record_of(end, log, 0, "s");
   CHECK(record.status == RunRecord::Status::unsteady);
   CHECK(has_results(record));
   CHECK(record.reason == "not yet steady after 0.2 s");
-  CHECK(record.notes == "grains are fast; low viscosity");
+  CHECK(record.notes == std::vector<std::string>{
+                            "grains are fast", "viscosity 1e-07", "kappa < 1000", "Mach number at 2 s = 0.2",
+                            "comoving on from 1.5e-05 s: grains at 2 viscosities a cell"});
   write_record(scratch.path.string(), record);
   CHECK(read_record(scratch.path.string(), "s")->notes == record.notes);
   // A record from before notes were kept: its log tells.
@@ -323,6 +359,17 @@ TEST_CASE("a record is taken up again with the same settings only, and a failure
   ProcessEnd end;
   end.code = 1;
   CHECK(record_of(end, log, 0, "s").reason == "lbm run: Mach 0.4");
+  CHECK(record_of(end, scratch.write("warned.txt", "lbm run: warning: Mach number\n"), 0, "s").notes ==
+        std::vector<std::string>{"Mach number"});
+  // A helper's mistake, in a script's `shell`, is the cause of what LIGGGHTS then misses.
+  CHECK(last_error_in(scratch.write("shell.txt",
+                                    "suffuse-analyse: error: sample: grading = A31, must be a name\n"
+                                    "ERROR on proc 0: Cannot open input script ./sample.inc\n")) ==
+        "sample: grading = A31, must be a name");
+  CHECK(last_error_in(scratch.write("internal.txt", "suffuse: internal error, please report it: x\n")) ==
+        "internal error, please report it: x");
+  CHECK(last_error_in(scratch.write("proc.txt", "0: ERROR on proc 1: Bad (x.cpp:1)\n")) ==
+        "ERROR on proc 1: Bad (x.cpp:1)");
   CHECK(last_error_in(scratch.write("other.txt", "ERROR: Lost atoms (thermo.cpp:1)\n")) ==
         "Lost atoms (thermo.cpp:1)");
   end.how = ProcessEnd::How::by_signal;

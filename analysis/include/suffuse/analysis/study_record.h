@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "suffuse/analysis/timed_process.h"
 
@@ -17,8 +18,10 @@ struct RunRecord {
   enum class Status { finished, unsteady, failed, too_long };
 
   Status status = Status::failed;
-  std::string reason;    ///< why it did not finish: the program's own last error line; what is not steady
-  std::string notes;     ///< what the program's notes say, each once, joined by "; "
+  std::string reason;  ///< why it did not finish: the program's own last error line; what is not steady
+  /// What the run's log says by itself, in its order: notes, warnings (LIGGGHTS's too), effects that changed.
+  /// Of lines that differ in their numbers alone the first.
+  std::vector<std::string> notes;
   std::string settings;  ///< fingerprint of script, variables and ranks: other settings are another run
   double wall = 0, core = 0, other_cores = 0;
 };
@@ -37,7 +40,11 @@ bool has_results(const RunRecord& record);
 /// The record of a run that ended like this; its log says why where it failed, and what it noted.
 RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit, const std::string& settings);
 
-/// The last line of a log that tells an error ("suffuse: error: ..." or LIGGGHTS's "ERROR: ..."), without
+/// A note without its numbers: those of several runs that say the same have the same one.
+std::string kind_of_note(const std::string& note);
+
+/// The last line of a log in which a program of ours tells an error ("suffuse: error: ...", or that of a
+/// helper in a script's `shell`), or else LIGGGHTS ("ERROR: ..."), which may only follow from it; without
 /// what stands before the message; empty where there is none.
 std::string last_error_in(const std::string& log);
 

@@ -36,7 +36,8 @@ class StudyTable {
   const std::vector<StudyRow>& rows() const { return rows_; }
   bool none_finished() const;
 
-  /// For the screen: runs by their time, the front marked, those that failed with their reasons below.
+  /// For the screen: runs by their time, the front marked, with the numbers of their notes; those that failed
+  /// with their reasons and the notes themselves below.
   std::string text() const;
   /// "fastest within 3 %: resolution=5, 12.3 s (error 1.6 %)"; where several quantities have a reference, a
   /// line for each of them alone behind it.
@@ -56,9 +57,15 @@ class StudyTable {
   std::optional<double> counted_error(const StudyRow& row, std::size_t quantity) const;
   std::vector<std::size_t> by_time() const;
   std::ptrdiff_t judged() const;  ///< quantities with a reference
-  std::string finished_text() const;
-  std::string failed_text() const;
-  std::string notes_text() const;
+  struct Note {
+    std::string kind, text;
+    std::ptrdiff_t runs;
+  };
+  std::vector<Note> notes() const;
+  std::string numbers_of(const StudyRow& row, const std::vector<Note>& notes) const;
+  std::string finished_text(const std::vector<Note>& notes) const;
+  std::string failed_text(const std::vector<Note>& notes) const;
+  std::string notes_text(const std::vector<Note>& notes) const;
   std::string extrapolated_text() const;
 
   const Study& study_;

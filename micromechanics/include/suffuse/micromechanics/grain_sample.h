@@ -48,6 +48,9 @@ std::vector<std::size_t> whole_numbers(const GrainSample& sample);
 /// How many grains have so many coarse ones; infinite where none is coarse.
 double grains_with_coarse(std::span<const GradingClass> classes, double coarse, double split);
 
+/// How many grains have one of the rarest size: of numbers n_i ~ m_i/d_i^3, their sum over the least.
+double grains_with_every_size(std::span<const GradingClass> classes);
+
 /// Share of a box that spheres of this grading are placed in at random without contacts, from the largest to
 /// the smallest. Grains larger than 1/2.7 of the largest fill at most 0.3534, below the saturation of equal
 /// spheres, 0.38 (key: torquato2006); all grains at most 0.5049. Both are Appendix A's (5.8 mm for 20,000
