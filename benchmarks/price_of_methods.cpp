@@ -72,7 +72,7 @@ Result run(const Case& c, CoupledSettings settings, int cells, int interval) {
   for (int n = 0; n < 400 && std::abs(speed - before) > steady * std::abs(speed); ++n) {
     for (int k = 0; k < interval; ++k) simulation.step(k >= interval - simulation.loads_span());
     before = speed;
-    speed = plane_sums(simulation, 0).superficial_velocity()[0];
+    speed = plane_sums(simulation.map(), 0).superficial_velocity()[0];
   }
   simulation.refresh_loads();
   Result result;

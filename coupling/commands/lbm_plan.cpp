@@ -31,13 +31,14 @@ constexpr double kGrainStepsPerSecond = 4.5e6;
 class HeldGrains final : public ParticlePort {
  public:
   HeldGrains(ParticlePort& port, bool reads_loads) : port_(port), reads_loads_(reads_loads) {}
-  GrainArrays grains() override {
-    const GrainArrays arrays = port_.grains();
-    load_.resize(6 * static_cast<std::size_t>(arrays.owned));
-    records_.resize(static_cast<std::size_t>(arrays.owned));
-    return arrays;
+  void refresh() override {
+    port_.refresh();
+    const auto owned = static_cast<std::size_t>(port_.grains().owned);
+    load_.resize(6 * owned);
+    records_.resize(owned);
   }
-  void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
+  GrainArrays grains() const override { return port_.grains(); }
+  void sum_over_copies(std::vector<GrainSums>&) override {}
   GrainMemory memory() override { return {load_.data(), records_.data()}; }
   bool reads_loads(int) override { return reads_loads_; }
   double time_step() const override { return port_.time_step(); }
@@ -88,10 +89,10 @@ class Trial {
   double look() {
     constexpr int looks = 3;
     double wall = 0;
-    simulation_.map();
+    const MappedScene scene = simulation_.map();
     const double share = share_during([&] {
       const double start = MPI_Wtime();
-      for (int n = 0; n < looks; ++n) (void)plane_sums(simulation_, 2);
+      for (int n = 0; n < looks; ++n) (void)plane_sums(scene, 2);
       wall = MPI_Wtime() - start;
     });
     return slowest(share * wall / looks);

@@ -136,8 +136,8 @@ std::string LbmRun::with_last_state(const std::string& reason) const {
 
 /// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
 /// too: at rest they tremble.
-bool LbmRun::is_steady(double share) {
-  const PlaneSums planes = plane_sums(simulation_, 2);
+bool LbmRun::is_steady(const MappedScene& scene, double share) {
+  const PlaneSums planes = plane_sums(scene, 2);
   const Vec3 flow = planes.superficial_velocity();
   Vec3 motion = Vec3::Zero();
   for (const Vec3& flux : planes.solid_flux) motion += flux / static_cast<double>(planes.planes());
@@ -173,10 +173,10 @@ void LbmRun::begin(const RunRequest& request, std::optional<double> continue_aft
   for (const std::string& line : manifest(simulation_, grains, effects_.states(), request.walls))
     say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
-  simulation_.map();
+  const MappedScene scene = simulation_.map();
   refuse_overlaps(grains);
   simulation_.times() = {};
-  output_.prepare(settings_, lmp_, port_, simulation_, continue_after);
+  output_.prepare(settings_, lmp_, port_, simulation_, scene, continue_after);
   follow_variables_ = values_change(settings_);
   first_ = simulation_.fluid().steps();
   last_ = first_ + steps;
@@ -210,8 +210,7 @@ bool LbmRun::look(long step, const RunRequest& request) {
   const long steady_every = std::max(10L, simulation_.units().steps_in(window));
   bool steady = false;
   if (request.steady && (step - first_) % steady_every == 0) {
-    simulation_.map();
-    steady = is_steady(*request.steady);
+    steady = is_steady(simulation_.map(), *request.steady);
     if (steady) simulation_.refresh_loads();  // the last step's refer to them
   }
   simulation_.times().output += MPI_Wtime() - before;

@@ -53,7 +53,7 @@ class LbmRun {
   void report_effects(double wall);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
   std::string with_last_state(const std::string& reason) const;
-  bool is_steady(double share);
+  bool is_steady(const MappedScene& scene, double share);
   std::string details() const;
   std::string table(double wall);
   std::optional<std::string> drag_note() const;

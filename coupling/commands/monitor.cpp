@@ -14,7 +14,7 @@
 namespace suffuse::coupling {
 
 const PlaneSums& Sample::planes() {
-  if (!planes_) planes_ = plane_sums(simulation, axis);
+  if (!planes_) planes_ = plane_sums(scene_, axis);
   return *planes_;
 }
 
@@ -32,10 +32,10 @@ double Sample::specific_weight() const {
 }
 
 Monitor::Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                 CoupledSimulation& simulation, std::optional<double> continue_after,
-                 const MonitorReferences& references)
+                 CoupledSimulation& simulation, const MappedScene& scene,
+                 std::optional<double> continue_after, const MonitorReferences& references)
     : request_(request), every_(simulation.units().steps_in(request.every)) {
-  Sample now(lmp, port, simulation, request.axis);
+  Sample now(lmp, port, simulation, scene, request.axis);
   for (const QuantityRequest& quantity : request.quantities)
     quantities_.push_back(make_quantity(quantity, request, now));
   for (Quantity& quantity : quantities_)
@@ -75,10 +75,10 @@ void Monitor::open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after)
 }
 
 void Monitor::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-                    const std::optional<PlaneSums>& planes) {
+                    const MappedScene& scene, const std::optional<PlaneSums>& planes) {
   if (simulation.fluid().steps() == last_step_) return;
   last_step_ = simulation.fluid().steps();
-  Sample sample(lmp, port, simulation, request_.axis);
+  Sample sample(lmp, port, simulation, scene, request_.axis);
   if (planes && planes->axis == request_.axis) sample.set_planes(*planes);
   std::vector<double> values{simulation.time_si()};
   lmp->modify->clearstep_compute();  // values of other steps are not those of this one

@@ -18,8 +18,9 @@ namespace suffuse::coupling {
 /// What quantities are made from; each part is computed once a sample, and only if some quantity wants it.
 class Sample {
  public:
-  Sample(LAMMPS_NS::LAMMPS* liggghts, LiggghtsPort& grains_port, CoupledSimulation& flow, int across)
-      : lmp(liggghts), port(grains_port), simulation(flow), axis(across) {}
+  Sample(LAMMPS_NS::LAMMPS* liggghts, LiggghtsPort& grains_port, CoupledSimulation& flow,
+         const MappedScene& scene, int across)
+      : lmp(liggghts), port(grains_port), simulation(flow), axis(across), scene_(scene) {}
 
   const PlaneSums& planes();
   /// For those that are known already.
@@ -34,6 +35,7 @@ class Sample {
   int axis;
 
  private:
+  MappedScene scene_;
   std::optional<PlaneSums> planes_;
   std::optional<LiggghtsPort::Summary> grains_;
 };
@@ -57,7 +59,7 @@ class Monitor {
   /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay, and
   /// samples refer to what `references` has for these columns. Collective.
   Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-          CoupledSimulation& simulation, std::optional<double> continue_after,
+          CoupledSimulation& simulation, const MappedScene& scene, std::optional<double> continue_after,
           const MonitorReferences& references);
 
   /// Adds what samples refer to now.
@@ -70,7 +72,7 @@ class Monitor {
   /// `planes`: sums of this step, if they are known; taken where they are across the monitor's axis.
   /// Collective.
   void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-             const std::optional<PlaneSums>& planes = {});
+             const MappedScene& scene, const std::optional<PlaneSums>& planes = {});
 
  private:
   void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);

@@ -101,7 +101,8 @@ void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
 }
 
 void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                        CoupledSimulation& simulation, std::optional<double> continue_after) {
+                        CoupledSimulation& simulation, const MappedScene& scene,
+                        std::optional<double> continue_after) {
   std::erase_if(monitors_, [&](const auto& open) {
     return std::none_of(settings.monitors.begin(), settings.monitors.end(),
                         [&](const MonitorRequest& m) { return m.id == open->request().id; });
@@ -110,7 +111,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (std::none_of(monitors_.begin(), monitors_.end(),
                      [&](const auto& open) { return open->request().id == request.id; }))
       monitors_.push_back(
-          std::make_unique<Monitor>(request, lmp, port, simulation, continue_after, references_));
+          std::make_unique<Monitor>(request, lmp, port, simulation, scene, continue_after, references_));
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
@@ -171,9 +172,9 @@ bool RunOutput::due(long step) const {
 void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
   const long step = simulation.fluid().steps();
   if (saves(step)) (void)save(lmp, port, simulation);
-  simulation.map();  // cells as the grains are now
+  const MappedScene scene = simulation.map();  // cells as the grains are now
   for (const auto& monitor : monitors_)
-    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation, sample_);
+    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation, scene, sample_);
   for (const auto& fields : fields_) {
     const bool first = fields->last_step < 0 && !fields->continues;
     if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
@@ -206,7 +207,7 @@ std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort&
   simulation.refresh_loads();  // the grains' memory is saved with them
   port.set_up_again();
   write_checkpoint(lmp, simulation, references(), checkpoint_->file);
-  simulation.map_anew();
+  (void)simulation.map_anew();
   sample_.reset();  // of cells as they were
   last_state_ = fmt::format("{} (fluid step {})", checkpoint_->file, simulation.fluid().steps());
   return checkpoint_->file;
@@ -217,8 +218,7 @@ const PlaneSums* RunOutput::sample_now(long step, CoupledSimulation& simulation)
   const auto due = std::find_if(monitors_.begin(), monitors_.end(),
                                 [&](const auto& monitor) { return step % monitor->every() == 0; });
   if (due == monitors_.end() || saves(step)) return nullptr;
-  simulation.map();
-  sample_ = plane_sums(simulation, (*due)->request().axis);
+  sample_ = plane_sums(simulation.map(), (*due)->request().axis);
   return &*sample_;
 }
 

@@ -24,7 +24,8 @@ class RunOutput {
   /// Opens what the script has asked for since the last call and drops what it has taken back. With
   /// `continue_after` (s) new files go on with what an earlier run left in them up to then. Collective.
   void prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-               CoupledSimulation& simulation, std::optional<double> continue_after);
+               CoupledSimulation& simulation, const MappedScene& scene,
+               std::optional<double> continue_after);
 
   /// Is anything due once the fluid has made so many steps?
   bool due(long step) const;

@@ -63,33 +63,41 @@ void LiggghtsPort::withdraw() {
   made_fix_ = false;
 }
 
-GrainArrays LiggghtsPort::grains() {
-  const auto* atom = lmp_->atom;
+void LiggghtsPort::refresh() {
   fix_ = find_force_fix(lmp_);
   keep_memory();
   // Before anything has been run there are no ghosts, nor LIGGGHTS's lists of whom to tell.
   if (lmp_->update->first_update != 0) fix_->update_ghost_velocities();
-  GrainArrays arrays;
+  arrays_ = {};
   all_grains_ = fix_->igroup == 0;
+  if (all_grains_)
+    view_all();
+  else
+    copy_group();
+}
+
+void LiggghtsPort::view_all() {
+  const auto* atom = lmp_->atom;
+  arrays_.owned = atom->nlocal;
+  arrays_.total = atom->nlocal + atom->nghost;
+  if (arrays_.total == 0) return;
+  arrays_.position = atom->x[0];
+  arrays_.velocity = atom->v[0];
+  arrays_.angular_velocity = atom->omega[0];
+  arrays_.radius = atom->radius;
+  arrays_.mass = atom->rmass;
+  arrays_.id = atom->tag;
+}
+
+void LiggghtsPort::copy_group() {
+  const auto* atom = lmp_->atom;
   const int all = atom->nlocal + atom->nghost;
-  if (all_grains_) {
-    arrays.owned = atom->nlocal;
-    arrays.total = all;
-    if (all == 0) return arrays;
-    arrays.position = atom->x[0];
-    arrays.velocity = atom->v[0];
-    arrays.angular_velocity = atom->omega[0];
-    arrays.radius = atom->radius;
-    arrays.mass = atom->rmass;
-    arrays.id = atom->tag;
-    return arrays;
-  }
   local_.clear();
   for (int i = 0; i < all; ++i) {
     if ((atom->mask[i] & fix_->groupbit) != 0) local_.push_back(i);
-    if (i + 1 == atom->nlocal) arrays.owned = static_cast<int>(local_.size());
+    if (i + 1 == atom->nlocal) arrays_.owned = static_cast<int>(local_.size());
   }
-  arrays.total = static_cast<int>(local_.size());
+  arrays_.total = static_cast<int>(local_.size());
   position_.clear();
   velocity_.clear();
   spin_.clear();
@@ -104,34 +112,24 @@ GrainArrays LiggghtsPort::grains() {
     mass_.push_back(atom->rmass[i]);
     id_.push_back(atom->tag[i]);
   }
-  arrays.position = position_.data();
-  arrays.velocity = velocity_.data();
-  arrays.angular_velocity = spin_.data();
-  arrays.radius = radius_.data();
-  arrays.mass = mass_.data();
-  arrays.id = id_.data();
-  return arrays;
+  arrays_.position = position_.data();
+  arrays_.velocity = velocity_.data();
+  arrays_.angular_velocity = spin_.data();
+  arrays_.radius = radius_.data();
+  arrays_.mass = mass_.data();
+  arrays_.id = id_.data();
 }
 
-void LiggghtsPort::sum_over_copies(std::vector<double>& force, std::vector<double>& torque) {
-  if (all_grains_) {
-    fix_->sum_over_ghosts(force, torque);
-    return;
-  }
-  const auto all = 3 * static_cast<std::size_t>(lmp_->atom->nlocal + lmp_->atom->nghost);
-  std::vector<double> every_force(all, 0), every_torque(all, 0);
-  const auto spread = [&](std::vector<double>& part, std::vector<double>& whole, bool gather) {
-    for (std::size_t n = 0; n < local_.size(); ++n)
-      for (std::size_t a = 0; a < 3; ++a) {
-        double& other = whole[3 * static_cast<std::size_t>(local_[n]) + a];
-        (gather ? part[3 * n + a] : other) = gather ? other : part[3 * n + a];
-      }
+void LiggghtsPort::sum_over_copies(std::vector<GrainSums>& sums) {
+  static_assert(sizeof(GrainSums) == FixHydrodynamicForce::kSumValues * sizeof(double));
+  const auto exchange = [this](std::vector<GrainSums>& all) {
+    fix_->sum_over_ghosts(reinterpret_cast<double*>(all.data()));
   };
-  spread(force, every_force, false);
-  spread(torque, every_torque, false);
-  fix_->sum_over_ghosts(every_force, every_torque);
-  spread(force, every_force, true);
-  spread(torque, every_torque, true);
+  if (all_grains_) return exchange(sums);
+  std::vector<GrainSums> all(static_cast<std::size_t>(lmp_->atom->nlocal + lmp_->atom->nghost));
+  for (std::size_t n = 0; n < local_.size(); ++n) all[static_cast<std::size_t>(local_[n])] = sums[n];
+  exchange(all);
+  for (std::size_t n = 0; n < local_.size(); ++n) sums[n] = all[static_cast<std::size_t>(local_[n])];
 }
 
 GrainMemory LiggghtsPort::memory() {

@@ -33,8 +33,9 @@ class LiggghtsPort final : public ParticlePort {
   /// Takes the fix back if this port made it: as if there had been no port.
   void withdraw();
 
-  GrainArrays grains() override;
-  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override;
+  void refresh() override;
+  GrainArrays grains() const override { return arrays_; }
+  void sum_over_copies(std::vector<GrainSums>& sums) override;
   GrainMemory memory() override;
   bool reads_loads(int substeps) override;
   double time_step() const override;
@@ -155,6 +156,8 @@ class LiggghtsPort final : public ParticlePort {
   Vec3 mean_load(int groupbit) const;
 
  private:
+  void view_all();
+  void copy_group();
   void keep_memory();
   void keep_box();
   bool acts_in_every_step() const;
@@ -168,6 +171,7 @@ class LiggghtsPort final : public ParticlePort {
   bool every_step_ = false;           ///< some fix does more in every step than what the next one does again
   std::int64_t announced_step_ = -1;  ///< whose values somebody will ask for
   bool all_grains_ = true;            ///< the fix's group is `all`
+  GrainArrays arrays_;
   std::array<double, 6> box_{};
   std::vector<int> local_;  ///< with a part of the grains: their places in LIGGGHTS's arrays, owned first
   std::vector<double> position_, velocity_, spin_, radius_, mass_, load_;

@@ -51,8 +51,7 @@ TEST_CASE("Planes know the flux, the solids' share of it, and the pressure betwe
   simulation.fluid().set_equilibrium([&](const lbm::Index3& cell) {
     return lbm::FluidPoint{1 - slope * (cell[2] - 9.5), units.velocity_to_lattice(velocity)};
   });
-  simulation.map();
-  const PlaneSums planes = plane_sums(simulation, 2);
+  const PlaneSums planes = plane_sums(simulation.map(), 2);
   const double solid = sphere_volume(5) / std::pow(kCells, 3);
   CHECK(planes.porosity(0, kCells) == Approx(1 - solid).epsilon(1e-3));  // the fraction's own error
   // Everything moves alike: fluid and grain together at the velocity, the fluid's share by the porosity.
