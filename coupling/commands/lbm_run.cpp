@@ -67,13 +67,12 @@ void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {
                       "settle or separate them before, or take stiffer contacts"});
 }
 
-std::string LbmRun::details() const {
+std::string LbmRun::details() {
   const lbm::Index3& n = simulation_.fluid().decomposition().cells();
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
   const double done = static_cast<double>(simulation_.fluid().steps() - first_);
-  return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6,
-                     simulation_.health_text(extremes_));
+  return lbm::progress_details(fmt::format("{:.5g} s", simulation_.time_si()), cells, done,
+                               MPI_Wtime() - start_, simulation_.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {
@@ -134,18 +133,15 @@ std::string LbmRun::with_last_state(const std::string& reason) const {
                                    : "the last good state is in " + state);
 }
 
-/// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
-/// too: at rest they tremble.
-bool LbmRun::is_steady(const MappedScene& scene, double share) {
-  const PlaneSums planes = plane_sums(scene, 2);
-  const Vec3 flow = planes.superficial_velocity();
-  Vec3 motion = Vec3::Zero();
-  for (const Vec3& flux : planes.solid_flux) motion += flux / static_cast<double>(planes.planes());
-  const bool steady = last_flow_ && (flow - *last_flow_).norm() <= share * flow.norm() &&
-                      (motion - *last_motion_).norm() <= share * std::max(flow.norm(), motion.norm());
-  last_flow_ = flow;
-  last_motion_ = motion;
-  return steady;
+/// Of the water between the grains, and of the grains.
+lbm::MeanMotion LbmRun::mean_motion() {
+  const double before = MPI_Wtime();
+  const PlaneSums planes = plane_sums(simulation_.map(), 2);
+  lbm::MeanMotion mean;
+  mean.flow = planes.superficial_velocity();
+  for (const Vec3& flux : planes.solid_flux) mean.carried += flux / static_cast<double>(planes.planes());
+  simulation_.times().output += MPI_Wtime() - before;
+  return mean;
 }
 
 /// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
@@ -187,34 +183,25 @@ void LbmRun::begin(const RunRequest& request, std::optional<double> continue_aft
   output_.write(lmp_, port_, simulation_);
 }
 
-/// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
-void LbmRun::advance(long step, bool is_last) {
+void LbmRun::advance(long step, bool cut_short) {
+  if (cut_short) simulation_.refresh_loads();  // those of this step refer to them
   port_.check_unchanged();
   port_.set_fluid_time(simulation_.time_si());
   if (follow_variables_) set_values();
   if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
   if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
-  if (is_last) port_.end_after(simulation_.substeps());
-  bool loads_asked_for = is_last;
+  if (cut_short) port_.end_after(simulation_.substeps());
+  bool loads_asked_for = cut_short;
   for (long ahead = step; ahead < step + simulation_.loads_span(); ++ahead)
     loads_asked_for |= ahead == last_ || output_.due(ahead);
   simulation_.step(loads_asked_for);
 }
 
-/// What is due after a step; true if the flow has become steady.
-bool LbmRun::look(long step, const RunRequest& request) {
+void LbmRun::look(long step) {
   const double before = MPI_Wtime();
   check(step);
   if (output_.due(step)) output_.write(lmp_, port_, simulation_);
-  const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, simulation_.units().steps_in(window));
-  bool steady = false;
-  if (request.steady && (step - first_) % steady_every == 0) {
-    steady = is_steady(simulation_.map(), *request.steady);
-    if (steady) simulation_.refresh_loads();  // the last step's refer to them
-  }
   simulation_.times().output += MPI_Wtime() - before;
-  return steady;
 }
 
 /// Saves the state where restart files were asked for, and says so.
@@ -230,10 +217,10 @@ std::string LbmRun::interruption_text(int signal) {
   return where + "; nothing saved: `lbm restart write FILE every T` before the run would have";
 }
 
-/// 0, or why this rank wants to stop.
-int LbmRun::stop_here() const {
-  if (lmp_->comm->me == 0 && settings_.wall_limit.is_over()) return kWallLimitStops;
-  return SignalWatch::received();
+/// Some rank's signal, the wall limit, or a fix of the script.
+int LbmRun::stop_requested() {
+  const bool is_over = lmp_->comm->me == 0 && settings_.wall_limit.is_over();
+  return port_.stop_requested(is_over ? kWallLimitStops : SignalWatch::received());
 }
 
 std::string LbmRun::table(double wall) {
@@ -285,23 +272,26 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
   begin(request, continue_after);
-  const double steps = static_cast<double>(last_ - first_);
+  lbm::RunPlan plan{first_, last_};
+  plan.until_steady = request.steady;
+  const double window = request.window > 0 ? request.window : request.time / 20;
+  plan.steady_every = std::max(10L, simulation_.units().steps_in(window));
+  plan.ends_with_a_step = true;  // LIGGGHTS writes its last lines in a step that it knows to be the last
   ProgressLine progress(lmp_->comm->me == 0);
-  bool is_last = false, steady = false;
-  int stop = 0;
-  for (long step = first_ + 1; step <= last_ && !steady && stop == 0; ++step) {
-    steady = is_last;
-    try {
-      advance(step, is_last);
-      is_last = look(step, request);
-    } catch (const LostRun& end) {  // on all ranks alike
-      throw LostRun(with_last_state(end.what()));
-    }
-    progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
-    stop = port_.stop_requested(stop_here());
+  lbm::RunEnd end;
+  try {
+    end = lbm::run_loop(*this, plan, progress);
+  } catch (const LostRun& lost) {  // on all ranks alike
+    throw LostRun(with_last_state(lost.what()));
   }
-  const bool interrupted = stop > LiggghtsPort::kFixStops;
-  const std::string last_words = interrupted ? interruption_text(stop) : "";
+  conclude(request, end, progress);
+}
+
+/// The last words of a run.
+void LbmRun::conclude(const RunRequest& request, const lbm::RunEnd& end, ProgressLine& progress) {
+  const double steps = static_cast<double>(last_ - first_);
+  const bool interrupted = end.stop > LiggghtsPort::kFixStops;
+  const std::string last_words = interrupted ? interruption_text(end.stop) : "";
   const double made = static_cast<double>(simulation_.fluid().steps() - first_);
   simulation_.refresh_loads();
   port_.end();
@@ -312,14 +302,13 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
   report_effects(wall);
   const std::string where_time_went = table(wall);
   if (request.steady)
-    say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
-                    simulation_.units().time_to_si(made)));
+    say("lbm run: " + lbm::steadiness_text(end.steady, simulation_.units().time_to_si(made)));
   say(where_time_went);
   if (const long rested = simulation_.rested_steps() - rested_; rested > 0)
     say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested,
                     made));
   if (const auto note = drag_note()) say(*note);
-  if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
+  if (interrupted) throw Interrupted(exit_code_of_stop(end.stop), last_words);
 }
 
 }  // namespace suffuse::coupling

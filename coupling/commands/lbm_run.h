@@ -13,6 +13,7 @@
 #include "run_output.h"
 #include "styles/scene_checks.h"
 #include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/lbm/run_loop.h"
 
 namespace suffuse::coupling {
 
@@ -26,7 +27,7 @@ struct RunRequest {
 };
 
 /// One `lbm run`: manifest, steps with what is due at each, table of times.
-class LbmRun {
+class LbmRun final : private lbm::RunSteps {
  public:
   /// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the
   /// time.
@@ -41,10 +42,12 @@ class LbmRun {
 
  private:
   void begin(const RunRequest& request, std::optional<double> continue_after);
-  void advance(long step, bool is_last);
-  bool look(long step, const RunRequest& request);
+  void advance(long step, bool cut_short) override;
+  void look(long step) override;
+  lbm::MeanMotion mean_motion() override;
+  std::string details() override;
+  int stop_requested() override;
   std::string interruption_text(int signal);
-  int stop_here() const;
   void set_values();
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
@@ -53,9 +56,8 @@ class LbmRun {
   void report_effects(double wall);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
   std::string with_last_state(const std::string& reason) const;
-  bool is_steady(const MappedScene& scene, double share);
-  std::string details() const;
   std::string table(double wall);
+  void conclude(const RunRequest& request, const lbm::RunEnd& end, ProgressLine& progress);
   std::optional<std::string> drag_note() const;
   std::optional<std::string> weight_note() const;
 
@@ -77,7 +79,6 @@ class LbmRun {
   bool near_limit_ = false;   ///< the Mach number, at the last look
   double solid_volume_ = 0;   ///< of the grains, m^3
   double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
-  std::optional<Vec3> last_flow_, last_motion_;
 };
 
 }  // namespace suffuse::coupling
