@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <vector>
 
 #include "../liggghts/fine_diameter.h"
@@ -14,6 +13,7 @@
 #include "manifest.h"
 #include "styles/style_support.h"
 #include "suffuse/common/count_text.h"
+#include "suffuse/common/processor_time.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/plane_sums.h"
@@ -106,7 +106,6 @@ class Trial {
     const double wall = MPI_Wtime() - start;
     return wall > 0 ? std::min(1., (processor_seconds() - busy) / wall) : 1;
   }
-  static double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
   double slowest(double mine) const {
     MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     return mine;
