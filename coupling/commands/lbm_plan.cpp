@@ -8,8 +8,6 @@
 #include <vector>
 
 #include "../liggghts/fine_diameter.h"
-#include "comm.h"
-#include "lammps.h"
 #include "manifest.h"
 #include "styles/style_support.h"
 #include "suffuse/common/count_text.h"
@@ -17,8 +15,6 @@
 #include "suffuse/common/progress.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/plane_sums.h"
-#include "timer.h"
-#include "update.h"
 
 namespace suffuse::coupling {
 
@@ -146,9 +142,8 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
 }
 
 /// What so many steps of single grains take, s: at the speed of LIGGGHTS's last run, or on usual cores.
-double grain_seconds(LAMMPS_NS::LAMMPS* lmp, const PastRun& past, double grain_steps) {
-  const double speed =
-      past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * lmp->comm->nprocs;
+double grain_seconds(int ranks, const PastRun& past, double grain_steps) {
+  const double speed = past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * ranks;
   return grain_steps / speed;
 }
 
@@ -230,7 +225,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   Costs costs = measure(settings, parts, low, port, grains_move, looks);
   const PastRun past = port.past_run();
   if (grains_move)
-    costs.grains = grain_seconds(lmp, past, settings.substeps * static_cast<double>(grains.grains));
+    costs.grains = grain_seconds(parts.ranks(), past, settings.substeps * static_cast<double>(grains.grains));
   const double steps = std::max(1., std::round(units.time_to_lattice(time)));
   const double fine = grains.grains > 0 ? fine_diameter(port, grains) : 0;
   tell(lmp,

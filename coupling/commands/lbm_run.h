@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "effect_report.h"
 #include "lbm_settings.h"
 #include "run_effects.h"
@@ -33,8 +33,7 @@ class LbmRun final : private lbm::RunSteps {
   /// time.
   static constexpr long kCheckEvery = 250;
 
-  LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-         CoupledSimulation& simulation, RunOutput& output, RunEffects& effects);
+  LbmRun(const Scene& scene, const LbmSettings& settings, RunOutput& output, RunEffects& effects);
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
@@ -61,10 +60,8 @@ class LbmRun final : private lbm::RunSteps {
   std::optional<std::string> drag_note() const;
   std::optional<std::string> weight_note() const;
 
-  LAMMPS_NS::LAMMPS* lmp_;
+  Scene scene_;
   const LbmSettings& settings_;
-  LiggghtsPort& port_;
-  CoupledSimulation& simulation_;
   RunOutput& output_;
   RunEffects& effects_;
   EffectReport report_;

@@ -36,8 +36,8 @@ struct MomentumLedger {
 
 class CoupledSimulation;
 
-/// A simulation whose cells are covered as its grains lie: what looks at covered cells takes one of these, and
-/// CoupledSimulation::map gives it. Good until the simulation's next step.
+/// A simulation whose cells are covered as its grains lie: what looks at covered cells takes one of these,
+/// and CoupledSimulation::map gives it. Good until the simulation's next step.
 class MappedScene {
  public:
   /// std::logic_error if it has made a step since.
@@ -199,12 +199,12 @@ class CoupledSimulation {
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
   long rested_steps_ = 0;
-  long rested_at_ = kNever;   ///< step after which the water is known to be at rest
-  bool has_flowed_ = false;   ///< it is never at rest again, to the last digit
-  bool stepped_ = false;      ///< since this simulation began
-  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
+  long rested_at_ = kNever;             ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;             ///< it is never at rest again, to the last digit
+  bool stepped_ = false;                ///< since this simulation began
+  long loads_step_ = kNever;            ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;  ///< as they are; mapping_ remembers how the cells have them
-  bool spheres_finite_ = true;  ///< of this rank: every position, velocity and spin is a number
+  bool spheres_finite_ = true;          ///< of this rank: every position, velocity and spin is a number
   std::string acting_walls_;
   std::vector<GrainSums> sums_;  ///< of the last loads that were formed
   MomentumLedger ledger_;

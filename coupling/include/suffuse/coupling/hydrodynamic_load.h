@@ -50,8 +50,8 @@ using micromechanics::sphere_volume;
 ///   lead).
 ///
 /// The exchange also accelerates the fluid that the grain's cells hold, whose momentum is the bracket; its
-/// change over the time passed gives that back (docs key: kempefrohlich2012). What is left is what has come in
-/// through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
+/// change over the time passed gives that back (docs key: kempefrohlich2012). What is left is what has come
+/// in through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
 /// cell around it. Without history the second term is zero, and for spheres below two cells a diameter that
 /// of the torque: a cell or two hold them, whose own inertia is larger than theirs.
 Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
