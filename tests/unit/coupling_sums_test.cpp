@@ -1,6 +1,7 @@
 // What runs report: means over planes, and the grains' file.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "prescribed_grains.h"
 #include "suffuse/common/hdf5_file.h"
@@ -65,6 +66,10 @@ TEST_CASE("Planes know the flux, the solids' share of it, and the pressure betwe
   CHECK(hydraulic_gradient(planes, 2 * kSpacing, 17 * kSpacing, 50, 9810) ==
         Approx((-pascal_a_cell / kSpacing + 50) / 9810).epsilon(1e-9));
   CHECK(planes.stored_mass == Approx(0).margin(1e-12 * planes.fluid_mass));
+
+  const MappedScene before = simulation.map();
+  simulation.step();
+  CHECK_THROWS_AS(plane_sums(before, 2), std::logic_error);
 }
 
 TEST_CASE("Pressure spreads through Appendix C's bed as its two-way account says") {
