@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <numbers>
 
 #include "drag_of_packings.h"
+#include "suffuse/common/processor_time.h"
 #include "suffuse/coupling/plane_sums.h"
 
 using namespace suffuse;
@@ -19,11 +19,6 @@ using namespace suffuse::coupling;
 namespace {
 
 constexpr double kEdge = 2e-3, kViscosity = 1e-6, kDensity = 1000, kGradient = 1;  // m, m^2/s, kg/m^3, Pa/m
-
-/// Seconds of this process, whatever else the machine does.
-double core_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 struct Result {
   double drag = 0, seconds = 0;
@@ -61,7 +56,7 @@ Result run(const Case& c, CoupledSettings settings, int cells, int interval) {
     g.radius = kEdge * c.packing.radii[n];
     list.push_back(g);
   }
-  const double start = core_seconds();
+  const double start = processor_seconds();
   PrescribedGrains grains(list, kEdge * Vec3::Ones(), {true, true, true},
                           lbm::Units(settings.units).time_step());
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, {cells, cells, cells}),
@@ -72,13 +67,13 @@ Result run(const Case& c, CoupledSettings settings, int cells, int interval) {
   for (int n = 0; n < 400 && std::abs(speed - before) > steady * std::abs(speed); ++n) {
     for (int k = 0; k < interval; ++k) simulation.step(k >= interval - simulation.loads_span());
     before = speed;
-    speed = plane_sums(simulation, 0).superficial_velocity()[0];
+    speed = plane_sums(simulation.map(), 0).superficial_velocity()[0];
   }
   simulation.refresh_loads();
   Result result;
   for (std::size_t n = 0; n < list.size(); ++n) result.forces.push_back(grains.force_on(n)[0]);
   result.forces = shares(result.forces);
-  result.seconds = core_seconds() - start;
+  result.seconds = processor_seconds() - start;
   result.drag = drag_from(c, speed);
   return result;
 }
@@ -101,7 +96,7 @@ Result averaged(const Case& c, DragLaw law, int cells) {
 /// A closure by itself: all grains see the mean solid fraction.
 Result formula(const Case& c, DragLaw law) {
   Result result;
-  const double start = core_seconds();
+  const double start = processor_seconds();
   for (const double r : c.packing.radii) {
     const double y = 2 * r / c.diameter;
     // Drag with the pressure gradient's share, by the grain's volume.
@@ -114,7 +109,7 @@ Result formula(const Case& c, DragLaw law) {
     result.forces[n] = (1 - c.phi) * result.forces[n] + 4 * std::numbers::pi / 3 * r * r * r;
   }
   result.drag = drag_factor(law, c.phi, 0) / (1 - c.phi);
-  result.seconds = core_seconds() - start;
+  result.seconds = processor_seconds() - start;
   return result;
 }
 

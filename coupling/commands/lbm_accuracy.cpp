@@ -7,8 +7,6 @@
 
 #include "../liggghts/fine_diameter.h"
 #include "../liggghts/fluid_box.h"
-#include "domain.h"
-#include "lammps.h"
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/accuracy_choice.h"
 #include "suffuse/coupling/effects.h"

@@ -8,16 +8,12 @@
 #include <map>
 
 #include "../liggghts/fluid_box.h"
+#include "../liggghts/instance.h"
 #include "../liggghts/restart_commands.h"
 #include "../liggghts/restart_instant.h"
-#include "../liggghts/saving_verlet.h"
-#include "domain.h"
-#include "fix.h"
-#include "lammps.h"
 #include "lbm_accuracy.h"
 #include "lbm_plan.h"
 #include "lbm_run.h"
-#include "modify.h"
 #include "register_styles.h"
 #include "saved_set.h"
 #include "suffuse/common/collective_text.h"
@@ -25,7 +21,6 @@
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/whole_cells.h"
-#include "update.h"
 
 namespace suffuse::coupling {
 
@@ -146,15 +141,7 @@ void LbmCommand::require_lattice(const std::string& who) const {
   if (!settings_.lattice_given)
     throw_user_error({who, "lattice", "none", "be defined before",
                       "write `lbm lattice spacing 4e-5 relaxation_time 0.8`, or `lbm accuracy 3%`"});
-  require_box(who);
-}
-
-void LbmCommand::require_box(const std::string& who) const {
-  if (std::string(lmp_->update->unit_style) != "si")
-    throw_user_error(
-        {who, "units", lmp_->update->unit_style, "be si", "write `units si` at the script's head"});
-  if (lmp_->domain->box_exist == 0)
-    throw_user_error({who, "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});
+  require_box(lmp_, who);
 }
 
 void LbmCommand::restart(ArgumentReader& reader) {
@@ -162,8 +149,8 @@ void LbmCommand::restart(ArgumentReader& reader) {
   const std::string file = reader.word("file");
   if (mode == "read") {
     refuse_after_start("restart read");
-    on_first_rank(reader.who(), lmp_->world, [&] { state_to_read_ = fluid_of_set(file); });
-    share_text(state_to_read_, lmp_->world);
+    on_first_rank(reader.who(), communicator_of(lmp_), [&] { state_to_read_ = fluid_of_set(file); });
+    share_text(state_to_read_, communicator_of(lmp_));
   } else if (mode == "write") {
     if (reader.accept("every")) {
       const CheckpointRequest checkpoint{file, reader.positive("every")};
@@ -176,22 +163,11 @@ void LbmCommand::restart(ArgumentReader& reader) {
     } else {
       put_grains_in_order(lmp_);
       write_checkpoint(lmp_, *simulation_, output_.references(), file);
-      simulation_->map_anew();
+      (void)simulation_->map_anew();
     }
   } else {
     reader.unknown(mode, "write, read");
   }
-}
-
-/// LIGGGHTS's own fix gives grains the weight of the displaced fluid as well.
-void LbmCommand::refuse_double_buoyancy() const {
-  if (settings_.coupled.effects.buoyancy == Switch::off) return;
-  for (int i = 0; i < lmp_->modify->nfix; ++i)
-    if (std::string(lmp_->modify->fix[i]->style).starts_with("buoyancy") && !settings_.gravity.is_zero())
-      throw_user_error(
-          {"lbm run", "fix", lmp_->modify->fix[i]->id,
-           "not act beside `lbm force gravity`: both give grains the weight of the displaced fluid",
-           "unfix it, or write `lbm effect buoyancy off`"});
 }
 
 /// With values of now; everything that `auto` leaves open is still open.
@@ -216,7 +192,7 @@ lbm::Decomposition LbmCommand::decomposition(Vec3& low) {
 void LbmCommand::build() {
   CoupledSettings coupled = settings_now();
   coupled.skip_rest = true;
-  const EffectSettings effects = effects_.start(coupled, *port_, lmp_->world, state_to_read_);
+  const EffectSettings effects = effects_.start(coupled, *port_, communicator_of(lmp_), state_to_read_);
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
@@ -225,7 +201,7 @@ void LbmCommand::build() {
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
   require_walls(lmp_, settings_.walls.open);
   simulation_->set_effects(effects);
-  walls_.follow(lmp_, settings_.walls, *port_, *simulation_, state_to_read_);
+  walls_.follow(scene(), settings_.walls, state_to_read_);
   if (!state_to_read_.empty()) read_state();
 }
 
@@ -248,7 +224,7 @@ void LbmCommand::read_state() {
     simulation_->continue_loads();
   load_pore_coefficients(state_to_read_, *simulation_);
   load_method(state_to_read_, *simulation_);
-  output_.set_references(load_references(state_to_read_, lmp_->world));
+  output_.set_references(load_references(state_to_read_, communicator_of(lmp_)));
   continued_at_ = simulation_->time_si();
 }
 
@@ -269,7 +245,7 @@ void LbmCommand::warn_about_held_grains() {
 /// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many
 /// equal ones as it needs, or as `substeps` says.
 int LbmCommand::choose_substeps() {
-  const double fluid_step = lbm::Units(settings_.coupled.units).time_step(), largest = lmp_->update->dt;
+  const double fluid_step = lbm::Units(settings_.coupled.units).time_step(), largest = port_->time_step();
   constexpr double most = 1e6;
   if (!(largest > 0) || fluid_step / largest > most)
     throw_user_error(
@@ -290,7 +266,7 @@ int LbmCommand::choose_substeps() {
 
 void LbmCommand::accuracy(ArgumentReader& reader) {
   const AccuracyRequest request = read_accuracy(reader);
-  require_box(reader.who());
+  require_box(lmp_, reader.who());
   if (settings_.coupled.averaged)
     throw_user_error({reader.who(), "method", "averaged", "be resolved: its errors are those of a drag law",
                       "write `lbm lattice` with a spacing of about three mean diameters"});
@@ -308,7 +284,7 @@ void LbmCommand::plan(ArgumentReader& reader) {
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
   CoupledSettings coupled = settings_now();
-  coupled.effects = RunEffects().start(coupled, *port_, lmp_->world, "");
+  coupled.effects = RunEffects().start(coupled, *port_, communicator_of(lmp_), "");
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition(low);
@@ -340,7 +316,8 @@ void LbmCommand::run(ArgumentReader& reader) {
   }
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
-  refuse_double_buoyancy();
+  if (settings_.coupled.effects.buoyancy != Switch::off && !settings_.gravity.is_zero())
+    refuse_double_buoyancy(lmp_);
   require_no_sets_of_grains(lmp_, reader.who());
   if (settings_.wall_limit.given() && !settings_.checkpoint)
     throw_user_error({"lbm stop", "after", settings_.wall_limit.text(), "have a place for the state",
@@ -354,7 +331,7 @@ void LbmCommand::run(ArgumentReader& reader) {
     simulation_->set_substeps(choose_substeps());
     simulation_->set_faces(now.fluid.faces);
     simulation_->set_gravity(now.gravity);
-    (void)walls_.follow(lmp_, settings_.walls, *port_, *simulation_, "");
+    (void)walls_.follow(scene(), settings_.walls, "");
   }
   if (until) {
     request.time -= simulation_->time_si();
@@ -367,9 +344,9 @@ void LbmCommand::run(ArgumentReader& reader) {
   }
   warn_about_held_grains();
   request.walls = walls_.lines();
-  for (const std::string& line : effects_.begin(lmp_, *port_, *simulation_, walls_.planes()))
+  for (const std::string& line : effects_.begin(scene(), walls_.planes()))
     tell(lmp_, "lbm run: " + line + "\n");
-  LbmRun(lmp_, settings_, *port_, *simulation_, output_, effects_).run(request, continued_at_);
+  LbmRun(scene(), settings_, output_, effects_).run(request, continued_at_);
 }
 
 }  // namespace suffuse::coupling

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "lbm_settings.h"
 #include "run_effects.h"
 #include "run_output.h"
@@ -35,14 +35,13 @@ class LbmCommand {
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
-  void require_box(const std::string& who) const;
-  void refuse_double_buoyancy() const;
   CoupledSettings settings_now() const;
   lbm::Decomposition decomposition(Vec3& low);
   void build();
   void read_state();
   void warn_about_held_grains();
   int choose_substeps();
+  Scene scene() { return {lmp_, *port_, *simulation_}; }
 
   LAMMPS_NS::LAMMPS* lmp_;
   LbmSettings settings_;

@@ -5,20 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <vector>
 
 #include "../liggghts/fine_diameter.h"
-#include "comm.h"
-#include "lammps.h"
 #include "manifest.h"
 #include "styles/style_support.h"
 #include "suffuse/common/count_text.h"
+#include "suffuse/common/processor_time.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/plane_sums.h"
-#include "timer.h"
-#include "update.h"
 
 namespace suffuse::coupling {
 
@@ -31,13 +27,14 @@ constexpr double kGrainStepsPerSecond = 4.5e6;
 class HeldGrains final : public ParticlePort {
  public:
   HeldGrains(ParticlePort& port, bool reads_loads) : port_(port), reads_loads_(reads_loads) {}
-  GrainArrays grains() override {
-    const GrainArrays arrays = port_.grains();
-    load_.resize(6 * static_cast<std::size_t>(arrays.owned));
-    records_.resize(static_cast<std::size_t>(arrays.owned));
-    return arrays;
+  void refresh() override {
+    port_.refresh();
+    const auto owned = static_cast<std::size_t>(port_.grains().owned);
+    load_.resize(6 * owned);
+    records_.resize(owned);
   }
-  void sum_over_copies(std::vector<double>&, std::vector<double>&) override {}
+  GrainArrays grains() const override { return port_.grains(); }
+  void sum_over_copies(std::vector<GrainSums>&) override {}
   GrainMemory memory() override { return {load_.data(), records_.data()}; }
   bool reads_loads(int) override { return reads_loads_; }
   double time_step() const override { return port_.time_step(); }
@@ -88,10 +85,10 @@ class Trial {
   double look() {
     constexpr int looks = 3;
     double wall = 0;
-    simulation_.map();
+    const MappedScene scene = simulation_.map();
     const double share = share_during([&] {
       const double start = MPI_Wtime();
-      for (int n = 0; n < looks; ++n) (void)plane_sums(simulation_, 2);
+      for (int n = 0; n < looks; ++n) (void)plane_sums(scene, 2);
       wall = MPI_Wtime() - start;
     });
     return slowest(share * wall / looks);
@@ -105,7 +102,6 @@ class Trial {
     const double wall = MPI_Wtime() - start;
     return wall > 0 ? std::min(1., (processor_seconds() - busy) / wall) : 1;
   }
-  static double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
   double slowest(double mine) const {
     MPI_Allreduce(MPI_IN_PLACE, &mine, 1, MPI_DOUBLE, MPI_MAX, communicator_);
     return mine;
@@ -146,9 +142,8 @@ Costs measure(const CoupledSettings& settings, const lbm::Decomposition& parts, 
 }
 
 /// What so many steps of single grains take, s: at the speed of LIGGGHTS's last run, or on usual cores.
-double grain_seconds(LAMMPS_NS::LAMMPS* lmp, const PastRun& past, double grain_steps) {
-  const double speed =
-      past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * lmp->comm->nprocs;
+double grain_seconds(int ranks, const PastRun& past, double grain_steps) {
+  const double speed = past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * ranks;
   return grain_steps / speed;
 }
 
@@ -230,7 +225,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   Costs costs = measure(settings, parts, low, port, grains_move, looks);
   const PastRun past = port.past_run();
   if (grains_move)
-    costs.grains = grain_seconds(lmp, past, settings.substeps * static_cast<double>(grains.grains));
+    costs.grains = grain_seconds(parts.ranks(), past, settings.substeps * static_cast<double>(grains.grains));
   const double steps = std::max(1., std::round(units.time_to_lattice(time)));
   const double fine = grains.grains > 0 ? fine_diameter(port, grains) : 0;
   tell(lmp,

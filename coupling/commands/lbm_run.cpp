@@ -7,9 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "comm.h"
+#include "../liggghts/instance.h"
 #include "interruption.h"
-#include "lammps.h"
 #include "manifest.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/progress.h"
@@ -34,32 +33,30 @@ constexpr double kSameGravity = 2e-3;
 
 }  // namespace
 
-LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-               CoupledSimulation& simulation, RunOutput& output, RunEffects& effects)
-    : lmp_(lmp),
+LbmRun::LbmRun(const Scene& scene, const LbmSettings& settings, RunOutput& output, RunEffects& effects)
+    : scene_(scene),
       settings_(settings),
-      port_(port),
-      simulation_(simulation),
       output_(output),
       effects_(effects),
-      guards_(settings.guards, simulation),
-      census_(lmp) {
+      guards_(settings.guards, scene.simulation),
+      census_(scene.lmp) {
   guards_.set_warned(output.warned());
 }
 
 void LbmRun::say(const std::string& line) const {
-  tell(lmp_, line + "\n");
+  tell(scene_.lmp, line + "\n");
 }
 
 void LbmRun::set_values() {
-  simulation_.set_faces(faces_now(settings_, simulation_.units(), lmp_));
-  simulation_.set_gravity(gravity_now(settings_, simulation_.units(), lmp_));
-  simulation_.set_pressure_gradient(pressure_gradient_now(settings_, simulation_.units(), lmp_));
+  scene_.simulation.set_faces(faces_now(settings_, scene_.simulation.units(), scene_.lmp));
+  scene_.simulation.set_gravity(gravity_now(settings_, scene_.simulation.units(), scene_.lmp));
+  scene_.simulation.set_pressure_gradient(
+      pressure_gradient_now(settings_, scene_.simulation.units(), scene_.lmp));
 }
 
 void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {
-  const double cell = std::pow(simulation_.units().spacing(), 3);
-  const double share = grains.solid_volume > 0 ? simulation_.overlap() * cell / grains.solid_volume : 0;
+  const double cell = std::pow(scene_.simulation.units().spacing(), 3);
+  const double share = grains.solid_volume > 0 ? scene_.simulation.overlap() * cell / grains.solid_volume : 0;
   if (share > kLargestOverlap)
     throw_user_error({"lbm run", "grains",
                       fmt::format("overlapping by {:.1f} % of their volume", 100 * share),
@@ -67,23 +64,22 @@ void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {
                       "settle or separate them before, or take stiffer contacts"});
 }
 
-std::string LbmRun::details() const {
-  const lbm::Index3& n = simulation_.fluid().decomposition().cells();
+std::string LbmRun::details() {
+  const lbm::Index3& n = scene_.simulation.fluid().decomposition().cells();
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
-  const double done = static_cast<double>(simulation_.fluid().steps() - first_);
-  return fmt::format("{:.5g} s  {:.1f} MLUPS  {}", simulation_.time_si(),
-                     cells * done / std::max(1e-9, MPI_Wtime() - start_) * 1e-6,
-                     simulation_.health_text(extremes_));
+  const double done = static_cast<double>(scene_.simulation.fluid().steps() - first_);
+  return lbm::progress_details(fmt::format("{:.5g} s", scene_.simulation.time_si()), cells, done,
+                               MPI_Wtime() - start_, scene_.simulation.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {
   // Before anything is written, too: nothing of a flow that is lost.
   const long every = near_limit_ ? kCheckNearLimitEvery : kCheckEvery;
   if (step % every != 0 && step != last_ && step != first_ && !output_.due(step)) return;
-  const PlaneSums* sums = output_.sample_now(step, simulation_);
-  const bool resolved = simulation_.method() == nullptr;
-  extremes_ = sums != nullptr && resolved ? sums->extremes : simulation_.extremes();
-  refuse_grains_behind_walls(simulation_);
+  const PlaneSums* sums = output_.sample_now(step, scene_.simulation);
+  const bool resolved = scene_.simulation.method() == nullptr;
+  extremes_ = sums != nullptr && resolved ? sums->extremes : scene_.simulation.extremes();
+  refuse_grains_behind_walls(scene_.simulation);
   const GuardReading now = reading(extremes_);
   fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
   near_limit_ = resolved && lbm::mach_of(extremes_) > kWarnShare * settings_.largest_mach;
@@ -92,167 +88,156 @@ void LbmRun::check(long step) {
   follow_effects();
   if (warnings.empty()) return;
   output_.set_warned(guards_.warned());
-  if (step > first_) (void)output_.save(lmp_, port_, simulation_);  // while the state is still good
+  if (step > first_) (void)output_.save(scene_);  // while the state is still good
 }
 
 /// After the guards: nothing is decided by a flow that is lost.
 void LbmRun::follow_effects() {
-  report_.count(effects_, simulation_.fluid().steps());
-  for (const std::string& line : effects_.look(lmp_, port_, simulation_, extremes_)) say("lbm run: " + line);
+  report_.count(effects_, scene_.simulation.fluid().steps());
+  for (const std::string& line : effects_.look(scene_, extremes_)) say("lbm run: " + line);
   MonitorReferences record;
   effects_.add_to(record);
   output_.set_effects(std::move(record));
 }
 
 void LbmRun::report_effects(double wall) {
-  const long steps = simulation_.fluid().steps();
+  const long steps = scene_.simulation.fluid().steps();
   report_.count(effects_, steps);
   const std::string file = effect_report_file(settings_);
   if (file.empty()) return;
-  write_effect_report(file, report_.rows(lmp_, effects_, simulation_, wall), simulation_, wall,
-                      steps - first_, lmp_->world);
+  write_effect_report(file, report_.rows(scene_.lmp, effects_, scene_.simulation, wall), scene_.simulation,
+                      wall, steps - first_, communicator_of(scene_.lmp));
 }
 
 GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   GuardReading now;
   now.fluid = fluid;
-  if (simulation_.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
+  if (scene_.simulation.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
   now.mach_limit = settings_.largest_mach;
-  if (grains_ > 0) now.fastest_grain = port_.summary().speed;
+  if (grains_ > 0) now.fastest_grain = scene_.port.summary().speed;
   if (solid_volume_ > 0)
-    now.overlap = simulation_.overlap() * std::pow(simulation_.units().spacing(), 3) / solid_volume_;
+    now.overlap =
+        scene_.simulation.overlap() * std::pow(scene_.simulation.units().spacing(), 3) / solid_volume_;
   now.lost_grains = census_.lost();
-  read_budgets(now, simulation_);
+  read_budgets(now, scene_.simulation);
   return now;
 }
 
 /// Where to go on from after a run that a guard has ended.
 std::string LbmRun::with_last_state(const std::string& reason) const {
   const std::string state = output_.last_state();
-  return fmt::format("{}; the run ended after fluid step {}, {}", reason, simulation_.fluid().steps(),
+  return fmt::format("{}; the run ended after fluid step {}, {}", reason, scene_.simulation.fluid().steps(),
                      state.empty() ? "no state is saved: `lbm restart write FILE every T` before the run"
                                    : "the last good state is in " + state);
 }
 
-/// Compares flow and motion with those of the last call. Ripples of a share of the flow count for the grains
-/// too: at rest they tremble.
-bool LbmRun::is_steady(double share) {
-  const PlaneSums planes = plane_sums(simulation_, 2);
-  const Vec3 flow = planes.superficial_velocity();
-  Vec3 motion = Vec3::Zero();
-  for (const Vec3& flux : planes.solid_flux) motion += flux / static_cast<double>(planes.planes());
-  const bool steady = last_flow_ && (flow - *last_flow_).norm() <= share * flow.norm() &&
-                      (motion - *last_motion_).norm() <= share * std::max(flow.norm(), motion.norm());
-  last_flow_ = flow;
-  last_motion_ = motion;
-  return steady;
+/// Of the water between the grains, and of the grains.
+lbm::MeanMotion LbmRun::mean_motion() {
+  const double before = MPI_Wtime();
+  const PlaneSums planes = plane_sums(scene_.simulation.map(), 2);
+  lbm::MeanMotion mean;
+  mean.flow = planes.superficial_velocity();
+  for (const Vec3& flux : planes.solid_flux) mean.carried += flux / static_cast<double>(planes.planes());
+  scene_.simulation.times().output += MPI_Wtime() - before;
+  return mean;
 }
 
 /// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
 void LbmRun::begin(const RunRequest& request, std::optional<double> continue_after) {
-  const lbm::Units& units = simulation_.units();
+  const lbm::Units& units = scene_.simulation.units();
   const long steps = units.steps_in(request.time);
-  if (const double dem_steps = units.time_to_lattice(request.time) * simulation_.substeps();
-      dem_steps > MAXSMALLINT)
+  if (const double dem_steps = units.time_to_lattice(request.time) * scene_.simulation.substeps();
+      dem_steps > RunControl::kMostSteps)
     throw_user_error({"lbm run", "time",
                       fmt::format("{:g} s, which are {:.3g} DEM steps", request.time, dem_steps),
-                      fmt::format("be at most {:.3g} DEM steps", static_cast<double>(MAXSMALLINT)),
+                      fmt::format("be at most {:.3g} DEM steps", static_cast<double>(RunControl::kMostSteps)),
                       "split it in several `lbm run`"});
   if (std::any_of(settings_.outputs.begin(), settings_.outputs.end(),
                   [](const OutputRequest& output) { return output.contacts; }))
-    port_.use_contacts();
-  tell_meshes_beyond_periodic_faces(lmp_);
-  tell_box_of_few_grains(lmp_);
-  port_.set_fluid_time(simulation_.time_si());  // what LIGGGHTS's setup prints may ask for it
-  port_.begin(steps * simulation_.substeps());
-  port_.set_fluid_time(simulation_.time_si());
+    scene_.port.use_contacts();
+  tell_meshes_beyond_periodic_faces(scene_.lmp);
+  tell_box_of_few_grains(scene_.lmp);
+  scene_.port.set_fluid_time(scene_.simulation.time_si());  // what LIGGGHTS's setup prints may ask for it
+  scene_.port.begin(steps * scene_.simulation.substeps());
+  scene_.port.set_fluid_time(scene_.simulation.time_si());
   set_values();
-  const LiggghtsPort::Summary grains = port_.summary();
+  const LiggghtsPort::Summary grains = scene_.port.summary();
   grains_ = grains.grains;
   solid_volume_ = grains.solid_volume;
-  for (const std::string& line : manifest(simulation_, grains, effects_.states(), request.walls))
+  for (const std::string& line : manifest(scene_.simulation, grains, effects_.states(), request.walls))
     say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);
-  simulation_.map();
+  const MappedScene mapped = scene_.simulation.map();
   refuse_overlaps(grains);
-  simulation_.times() = {};
-  output_.prepare(settings_, lmp_, port_, simulation_, continue_after);
+  scene_.simulation.times() = {};
+  output_.prepare(settings_, scene_, mapped, continue_after);
   follow_variables_ = values_change(settings_);
-  first_ = simulation_.fluid().steps();
+  first_ = scene_.simulation.fluid().steps();
   last_ = first_ + steps;
-  report_.begin(lmp_, effects_, simulation_);
-  rested_ = simulation_.rested_steps();
+  report_.begin(scene_.lmp, effects_, scene_.simulation);
+  rested_ = scene_.simulation.rested_steps();
   start_ = MPI_Wtime();
   check(first_);
-  output_.write(lmp_, port_, simulation_);
+  output_.write(scene_);
 }
 
-/// One fluid step. LIGGGHTS writes its last lines in a step that it knows to be the last.
-void LbmRun::advance(long step, bool is_last) {
-  port_.check_unchanged();
-  port_.set_fluid_time(simulation_.time_si());
+void LbmRun::advance(long step, bool cut_short) {
+  if (cut_short) scene_.simulation.refresh_loads();  // those of this step refer to them
+  scene_.port.check_unchanged();
+  scene_.port.set_fluid_time(scene_.simulation.time_si());
   if (follow_variables_) set_values();
-  if (output_.wants_values(step)) port_.announce_values(simulation_.substeps());
-  if (output_.wants_contacts(step)) port_.announce_contacts(simulation_.substeps());
-  if (is_last) port_.end_after(simulation_.substeps());
-  bool loads_asked_for = is_last;
-  for (long ahead = step; ahead < step + simulation_.loads_span(); ++ahead)
+  if (output_.wants_values(step)) scene_.port.announce_values(scene_.simulation.substeps());
+  if (output_.wants_contacts(step)) scene_.port.announce_contacts(scene_.simulation.substeps());
+  if (cut_short) scene_.port.end_after(scene_.simulation.substeps());
+  bool loads_asked_for = cut_short;
+  for (long ahead = step; ahead < step + scene_.simulation.loads_span(); ++ahead)
     loads_asked_for |= ahead == last_ || output_.due(ahead);
-  simulation_.step(loads_asked_for);
+  scene_.simulation.step(loads_asked_for);
 }
 
-/// What is due after a step; true if the flow has become steady.
-bool LbmRun::look(long step, const RunRequest& request) {
+void LbmRun::look(long step) {
   const double before = MPI_Wtime();
   check(step);
-  if (output_.due(step)) output_.write(lmp_, port_, simulation_);
-  const double window = request.window > 0 ? request.window : request.time / 20;
-  const long steady_every = std::max(10L, simulation_.units().steps_in(window));
-  bool steady = false;
-  if (request.steady && (step - first_) % steady_every == 0) {
-    simulation_.map();
-    steady = is_steady(*request.steady);
-    if (steady) simulation_.refresh_loads();  // the last step's refer to them
-  }
-  simulation_.times().output += MPI_Wtime() - before;
-  return steady;
+  if (output_.due(step)) output_.write(scene_);
+  scene_.simulation.times().output += MPI_Wtime() - before;
 }
 
 /// Saves the state where restart files were asked for, and says so.
 std::string LbmRun::interruption_text(int signal) {
   const std::string where =
       fmt::format("lbm run: stopped by {} after fluid step {} ({:.6g} s)", stop_name(signal),
-                  simulation_.fluid().steps(), simulation_.time_si());
-  simulation_.map();
-  if (const auto file = output_.save(lmp_, port_, simulation_))
+                  scene_.simulation.fluid().steps(), scene_.simulation.time_si());
+  scene_.simulation.map();
+  if (const auto file = output_.save(scene_))
     return fmt::format(
         "{}; the state is in {} and {}.grains: go on with `read_restart` and `lbm restart read`", where,
         *file, *file);
   return where + "; nothing saved: `lbm restart write FILE every T` before the run would have";
 }
 
-/// 0, or why this rank wants to stop.
-int LbmRun::stop_here() const {
-  if (lmp_->comm->me == 0 && settings_.wall_limit.is_over()) return kWallLimitStops;
-  return SignalWatch::received();
+/// Some rank's signal, the wall limit, or a fix of the script.
+int LbmRun::stop_requested() {
+  const bool is_over = is_first_rank(scene_.lmp) && settings_.wall_limit.is_over();
+  return scene_.port.stop_requested(is_over ? kWallLimitStops : SignalWatch::received());
 }
 
 std::string LbmRun::table(double wall) {
-  const long made = simulation_.fluid().steps() - first_;
-  const double grain_steps = port_.anything_moves() ? static_cast<double>(made) * simulation_.substeps() *
-                                                          static_cast<double>(grains_)
-                                                    : 0;
-  return time_table(simulation_, made, grain_steps, wall);
+  const long made = scene_.simulation.fluid().steps() - first_;
+  const double grain_steps =
+      scene_.port.anything_moves()
+          ? static_cast<double>(made) * scene_.simulation.substeps() * static_cast<double>(grains_)
+          : 0;
+  return time_table(scene_.simulation, made, grain_steps, wall);
 }
 
 /// What TRT does to the drag of grains as fast as these were, where it is more than a few
 /// per cent.
 std::optional<std::string> LbmRun::drag_note() const {
-  const lbm::CollisionSettings& collision = simulation_.fluid().settings().collision;
-  const lbm::Units& units = simulation_.units();
+  const lbm::CollisionSettings& collision = scene_.simulation.fluid().settings().collision;
+  const lbm::Units& units = scene_.simulation.units();
   const double speed = fastest_grain_ * units.spacing() / units.viscosity_si();
   const EffectState& comoving = effects_.state("comoving");
-  if (simulation_.method() != nullptr || comoving.on || comoving.changes > 0) return std::nullopt;
+  if (scene_.simulation.method() != nullptr || comoving.on || comoving.changes > 0) return std::nullopt;
   if (speed < kFastGrains.limit || collision.collision_operator != lbm::CollisionOperator::trt)
     return std::nullopt;
   return fmt::format(
@@ -265,10 +250,10 @@ std::optional<std::string> LbmRun::drag_note() const {
 /// Grains that weigh otherwise than the water: where that is meant to be their weight under water, buoyancy
 /// would be counted twice.
 std::optional<std::string> LbmRun::weight_note() const {
-  const Vec3& water = simulation_.settings().gravity;
-  if (water.isZero() || simulation_.effects().buoyancy == Switch::off || !port_.anything_moves())
+  const Vec3& water = scene_.simulation.settings().gravity;
+  if (water.isZero() || scene_.simulation.effects().buoyancy == Switch::off || !scene_.port.anything_moves())
     return std::nullopt;
-  const auto grains = port_.gravity_on_grains();
+  const auto grains = scene_.port.gravity_on_grains();
   if (!grains || grains->isZero() || (*grains - water).norm() < kSameGravity * water.norm())
     return std::nullopt;
   return fmt::format(
@@ -286,41 +271,43 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
   begin(request, continue_after);
-  const double steps = static_cast<double>(last_ - first_);
-  ProgressLine progress(lmp_->comm->me == 0);
-  bool is_last = false, steady = false;
-  int stop = 0;
-  for (long step = first_ + 1; step <= last_ && !steady && stop == 0; ++step) {
-    steady = is_last;
-    try {
-      advance(step, is_last);
-      is_last = look(step, request);
-    } catch (const LostRun& end) {  // on all ranks alike
-      throw LostRun(with_last_state(end.what()));
-    }
-    progress.update(static_cast<double>(step - first_) / steps, [this] { return details(); });
-    stop = port_.stop_requested(stop_here());
+  lbm::RunPlan plan{first_, last_};
+  plan.until_steady = request.steady;
+  const double window = request.window > 0 ? request.window : request.time / 20;
+  plan.steady_every = std::max(10L, scene_.simulation.units().steps_in(window));
+  plan.ends_with_a_step = true;  // LIGGGHTS writes its last lines in a step that it knows to be the last
+  ProgressLine progress(is_first_rank(scene_.lmp));
+  lbm::RunEnd end;
+  try {
+    end = lbm::run_loop(*this, plan, progress);
+  } catch (const LostRun& lost) {  // on all ranks alike
+    throw LostRun(with_last_state(lost.what()));
   }
-  const bool interrupted = stop > LiggghtsPort::kFixStops;
-  const std::string last_words = interrupted ? interruption_text(stop) : "";
-  const double made = static_cast<double>(simulation_.fluid().steps() - first_);
-  simulation_.refresh_loads();
-  port_.end();
-  port_.set_fluid_time(simulation_.time_si());
+  conclude(request, end, progress);
+}
+
+/// The last words of a run.
+void LbmRun::conclude(const RunRequest& request, const lbm::RunEnd& end, ProgressLine& progress) {
+  const double steps = static_cast<double>(last_ - first_);
+  const bool interrupted = end.stop > LiggghtsPort::kFixStops;
+  const std::string last_words = interrupted ? interruption_text(end.stop) : "";
+  const double made = static_cast<double>(scene_.simulation.fluid().steps() - first_);
+  scene_.simulation.refresh_loads();
+  scene_.port.end();
+  scene_.port.set_fluid_time(scene_.simulation.time_si());
   progress.finish(details(), interrupted ? made / steps : 1);
   census_.tell_lost();
   const double wall = MPI_Wtime() - start_;
   report_effects(wall);
   const std::string where_time_went = table(wall);
   if (request.steady)
-    say(fmt::format("lbm run: {} after {:.5g} s", steady ? "steady" : "not yet steady",
-                    simulation_.units().time_to_si(made)));
+    say("lbm run: " + lbm::steadiness_text(end.steady, scene_.simulation.units().time_to_si(made)));
   say(where_time_went);
-  if (const long rested = simulation_.rested_steps() - rested_; rested > 0)
+  if (const long rested = scene_.simulation.rested_steps() - rested_; rested > 0)
     say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested,
                     made));
   if (const auto note = drag_note()) say(*note);
-  if (interrupted) throw Interrupted(exit_code_of_stop(stop), last_words);
+  if (interrupted) throw Interrupted(exit_code_of_stop(end.stop), last_words);
 }
 
 }  // namespace suffuse::coupling

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "effect_report.h"
 #include "lbm_settings.h"
 #include "run_effects.h"
@@ -13,6 +13,7 @@
 #include "run_output.h"
 #include "styles/scene_checks.h"
 #include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/lbm/run_loop.h"
 
 namespace suffuse::coupling {
 
@@ -26,14 +27,13 @@ struct RunRequest {
 };
 
 /// One `lbm run`: manifest, steps with what is due at each, table of times.
-class LbmRun {
+class LbmRun final : private lbm::RunSteps {
  public:
   /// Fluid steps between looks of the guards, which cost as much as two or three steps: within 1 % of the
   /// time.
   static constexpr long kCheckEvery = 250;
 
-  LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
-         CoupledSimulation& simulation, RunOutput& output, RunEffects& effects);
+  LbmRun(const Scene& scene, const LbmSettings& settings, RunOutput& output, RunEffects& effects);
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
@@ -41,10 +41,12 @@ class LbmRun {
 
  private:
   void begin(const RunRequest& request, std::optional<double> continue_after);
-  void advance(long step, bool is_last);
-  bool look(long step, const RunRequest& request);
+  void advance(long step, bool cut_short) override;
+  void look(long step) override;
+  lbm::MeanMotion mean_motion() override;
+  std::string details() override;
+  int stop_requested() override;
   std::string interruption_text(int signal);
-  int stop_here() const;
   void set_values();
   void say(const std::string& line) const;
   void refuse_overlaps(const LiggghtsPort::Summary& grains) const;
@@ -53,16 +55,13 @@ class LbmRun {
   void report_effects(double wall);
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
   std::string with_last_state(const std::string& reason) const;
-  bool is_steady(double share);
-  std::string details() const;
   std::string table(double wall);
+  void conclude(const RunRequest& request, const lbm::RunEnd& end, ProgressLine& progress);
   std::optional<std::string> drag_note() const;
   std::optional<std::string> weight_note() const;
 
-  LAMMPS_NS::LAMMPS* lmp_;
+  Scene scene_;
   const LbmSettings& settings_;
-  LiggghtsPort& port_;
-  CoupledSimulation& simulation_;
   RunOutput& output_;
   RunEffects& effects_;
   EffectReport report_;
@@ -77,7 +76,6 @@ class LbmRun {
   bool near_limit_ = false;   ///< the Mach number, at the last look
   double solid_volume_ = 0;   ///< of the grains, m^3
   double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
-  std::optional<Vec3> last_flow_, last_motion_;
 };
 
 }  // namespace suffuse::coupling

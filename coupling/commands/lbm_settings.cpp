@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <map>
 
-#include "domain.h"
-#include "lammps.h"
+#include "../liggghts/instance.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/coupling/automatic_coefficient.h"
@@ -448,7 +447,7 @@ lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& uni
     const ScriptFace& given = settings.faces[f];
     lbm::FaceCondition& face = faces[f];
     face.kind = given.kind;
-    if (!given.given && lmp->domain->periodicity[f / 2] != 0) face.kind = lbm::FaceKind::periodic;
+    if (!given.given && is_periodic(lmp, static_cast<int>(f / 2))) face.kind = lbm::FaceKind::periodic;
     if (face.kind == lbm::FaceKind::velocity)
       face.velocity = units.velocity_to_lattice(given.velocity.now(lmp));
     if (face.kind == lbm::FaceKind::pressure)

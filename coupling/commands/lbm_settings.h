@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "../liggghts/script_value.h"
 #include "monitor_request.h"
 #include "run_guards.h"
-#include "script_value.h"
 #include "suffuse/coupling/settings.h"
 #include "suffuse/lbm/field_output.h"
 #include "wall_limit.h"

@@ -5,44 +5,42 @@
 #include <cmath>
 #include <set>
 
-#include "lammps.h"
+#include "../liggghts/instance.h"
 #include "lbm_settings.h"
-#include "modify.h"
 #include "styles/style_support.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::coupling {
 
 const PlaneSums& Sample::planes() {
-  if (!planes_) planes_ = plane_sums(simulation, axis);
+  if (!planes_) planes_ = plane_sums(mapped_, axis);
   return *planes_;
 }
 
 const LiggghtsPort::Summary& Sample::grains() {
   if (!grains_) {
-    simulation.refresh_loads();
-    grains_ = port.summary();
+    scene.simulation.refresh_loads();
+    grains_ = scene.port.summary();
   }
   return *grains_;
 }
 
 double Sample::specific_weight() const {
-  const double given = simulation.settings().gravity.norm();
-  return simulation.units().density() * (given > 0 ? given : 9.81);
+  const double given = scene.simulation.settings().gravity.norm();
+  return scene.simulation.units().density() * (given > 0 ? given : 9.81);
 }
 
-Monitor::Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                 CoupledSimulation& simulation, std::optional<double> continue_after,
-                 const MonitorReferences& references)
-    : request_(request), every_(simulation.units().steps_in(request.every)) {
-  Sample now(lmp, port, simulation, request.axis);
+Monitor::Monitor(const MonitorRequest& request, const Scene& scene, const MappedScene& mapped,
+                 std::optional<double> continue_after, const MonitorReferences& references)
+    : request_(request), every_(scene.simulation.units().steps_in(request.every)) {
+  Sample now(scene, mapped, request.axis);
   for (const QuantityRequest& quantity : request.quantities)
     quantities_.push_back(make_quantity(quantity, request, now));
   for (Quantity& quantity : quantities_)
     if (const auto saved = references.find(key(quantity)); quantity.reference && saved != references.end())
       *quantity.reference = saved->second;
   refuse_repeated_columns();
-  open(lmp, continue_after);
+  open(scene.lmp, continue_after);
 }
 
 void Monitor::refuse_repeated_columns() const {
@@ -68,20 +66,20 @@ void Monitor::open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after)
   for (const Quantity& quantity : quantities_)
     for (const std::string& column : quantity.columns) header += "," + column;
   const std::string who = "lbm monitor " + request_.id;
-  file_.emplace(request_.file, header, who, continue_after, lmp->world);
+  file_.emplace(request_.file, header, who, continue_after, communicator_of(lmp));
   if (!file_->earlier().empty())
     tell(lmp,
          fmt::format("{}: note: {} of an earlier run is now {}\n", who, request_.file, file_->earlier()));
 }
 
-void Monitor::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-                    const std::optional<PlaneSums>& planes) {
+void Monitor::write(const Scene& scene, const MappedScene& mapped, const std::optional<PlaneSums>& planes) {
+  const CoupledSimulation& simulation = scene.simulation;
   if (simulation.fluid().steps() == last_step_) return;
   last_step_ = simulation.fluid().steps();
-  Sample sample(lmp, port, simulation, request_.axis);
+  Sample sample(scene, mapped, request_.axis);
   if (planes && planes->axis == request_.axis) sample.set_planes(*planes);
   std::vector<double> values{simulation.time_si()};
-  lmp->modify->clearstep_compute();  // values of other steps are not those of this one
+  forget_values(scene.lmp);
   for (const Quantity& quantity : quantities_) quantity.append(sample, values);
   file_->add(values);
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
 #include "monitor_request.h"
 #include "suffuse/common/time_series_file.h"
@@ -18,8 +18,7 @@ namespace suffuse::coupling {
 /// What quantities are made from; each part is computed once a sample, and only if some quantity wants it.
 class Sample {
  public:
-  Sample(LAMMPS_NS::LAMMPS* liggghts, LiggghtsPort& grains_port, CoupledSimulation& flow, int across)
-      : lmp(liggghts), port(grains_port), simulation(flow), axis(across) {}
+  Sample(const Scene& of, const MappedScene& mapped, int across) : scene(of), axis(across), mapped_(mapped) {}
 
   const PlaneSums& planes();
   /// For those that are known already.
@@ -28,12 +27,11 @@ class Sample {
   /// |g| of `lbm force gravity` times the density, or with 9.81 m/s^2 where there is none, N/m^3.
   double specific_weight() const;
 
-  LAMMPS_NS::LAMMPS* lmp;
-  LiggghtsPort& port;
-  CoupledSimulation& simulation;
+  Scene scene;
   int axis;
 
  private:
+  MappedScene mapped_;
   std::optional<PlaneSums> planes_;
   std::optional<LiggghtsPort::Summary> grains_;
 };
@@ -56,9 +54,8 @@ class Monitor {
  public:
   /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay, and
   /// samples refer to what `references` has for these columns. Collective.
-  Monitor(const MonitorRequest& request, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-          CoupledSimulation& simulation, std::optional<double> continue_after,
-          const MonitorReferences& references);
+  Monitor(const MonitorRequest& request, const Scene& scene, const MappedScene& mapped,
+          std::optional<double> continue_after, const MonitorReferences& references);
 
   /// Adds what samples refer to now.
   void add_references(MonitorReferences& references) const;
@@ -69,8 +66,7 @@ class Monitor {
 
   /// `planes`: sums of this step, if they are known; taken where they are across the monitor's axis.
   /// Collective.
-  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-             const std::optional<PlaneSums>& planes = {});
+  void write(const Scene& scene, const MappedScene& mapped, const std::optional<PlaneSums>& planes = {});
 
  private:
   void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);

@@ -5,17 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "compute.h"
-#include "fix.h"
-#include "group.h"
-#include "input.h"
-#include "lammps.h"
-#include "modify.h"
+#include "../liggghts/script_references.h"
 #include "monitor.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/health.h"
 #include "suffuse/micromechanics/fluidisation.h"
-#include "variable.h"
 
 namespace suffuse::coupling {
 
@@ -58,7 +52,7 @@ std::vector<std::string> layer_columns(const std::string& name, int count, const
 }
 
 double gradient_between(Sample& sample, double low, double high) {
-  const Vec3& driven = sample.simulation.settings().pressure_gradient;
+  const Vec3& driven = sample.scene.simulation.settings().pressure_gradient;
   return hydraulic_gradient(sample.planes(), low, high, driven[sample.axis], sample.specific_weight());
 }
 
@@ -152,26 +146,27 @@ Quantity mass_quantity() {
   return {{"fluid_mass_kg", "mass_change_kg", "mass_balance_kg"},
           [state](Sample& sample, std::vector<double>& row) {
             const PlaneSums& planes = sample.planes();
-            const lbm::Units& units = sample.simulation.units();
-            const lbm::Index3& cells = sample.simulation.fluid().decomposition().cells();
+            const lbm::Units& units = sample.scene.simulation.units();
+            const lbm::Index3& cells = sample.scene.simulation.fluid().decomposition().cells();
             const double area = std::pow(units.spacing(), 2) * cells[0] * cells[1] * cells[2] /
                                 static_cast<double>(planes.planes());
             // Walls and symmetry let nothing in, and what leaves through a periodic face comes in by the
             // other.
-            const lbm::FluidSettings& settings = sample.simulation.fluid().settings();
+            const lbm::FluidSettings& settings = sample.scene.simulation.fluid().settings();
             const auto through = [&](int side, std::size_t plane) {
               const lbm::FaceKind kind =
                   settings.faces[static_cast<std::size_t>(2 * sample.axis + side)].kind;
               const bool open = kind == lbm::FaceKind::velocity || kind == lbm::FaceKind::pressure;
               // Water under pressure is denser; `incompressible` and the averaged flow move it at the
               // reference density.
-              const double denser = settings.collision.incompressible || sample.simulation.method() != nullptr
-                                        ? 1
-                                        : units.pressure_to_density_lattice(planes.pressure[plane]);
+              const double denser =
+                  settings.collision.incompressible || sample.scene.simulation.method() != nullptr
+                      ? 1
+                      : units.pressure_to_density_lattice(planes.pressure[plane]);
               return open ? units.density() * denser * planes.flux[plane][sample.axis] : 0;
             };
             const double inflow = area * (through(0, 0) - through(1, planes.planes() - 1));
-            const double time = sample.simulation.time_si();
+            const double time = sample.scene.simulation.time_si();
             if (state->size() != size) *state = {planes.stored_mass, time, inflow, 0};
             std::vector<double>& s = *state;
             s[came_in] += 0.5 * (time - s[last_time]) * (inflow + s[last_inflow]);
@@ -187,7 +182,7 @@ Quantity discharge_quantity(int axis) {
   const std::string name = "discharge_" + axis_name(axis);
   return {{name + "lo_m3_per_s", name + "hi_m3_per_s"}, [](Sample& sample, std::vector<double>& row) {
             const PlaneSums& planes = sample.planes();
-            const lbm::Index3& cells = sample.simulation.fluid().decomposition().cells();
+            const lbm::Index3& cells = sample.scene.simulation.fluid().decomposition().cells();
             const double area = std::pow(planes.spacing, 2) * cells[0] * cells[1] * cells[2] /
                                 static_cast<double>(planes.planes());
             row.push_back(area * planes.flux.front()[sample.axis]);
@@ -210,10 +205,10 @@ std::vector<std::string> class_columns(const std::string& word, const std::vecto
 Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
   const auto& bounds = request.numbers;
   const std::vector<std::string> columns = class_columns(request.word, bounds, "");
-  const auto first = std::make_shared<std::vector<double>>(now.port.grains_by_size(bounds));
+  const auto first = std::make_shared<std::vector<double>>(now.scene.port.grains_by_size(bounds));
   return {columns,
           [bounds, first](Sample& sample, std::vector<double>& row) {
-            const std::vector<double> left = sample.port.grains_by_size(bounds);
+            const std::vector<double> left = sample.scene.port.grains_by_size(bounds);
             for (std::size_t k = 0; k < left.size(); ++k) row.push_back((*first)[k] - left[k]);
           },
           first};
@@ -223,72 +218,29 @@ Quantity grains_left_quantity(const QuantityRequest& request, Sample& now) {
 Quantity eroded_mass_quantity(const QuantityRequest& request, int axis, Sample& now) {
   const auto& bounds = request.numbers;
   const double above = request.above.value_or(std::numeric_limits<double>::infinity());
-  const auto first = std::make_shared<std::vector<double>>(now.port.mass_by_size(bounds, axis, above));
+  const auto first = std::make_shared<std::vector<double>>(now.scene.port.mass_by_size(bounds, axis, above));
   return {class_columns(request.word, bounds, "_kg"),
           [bounds, axis, above, first](Sample& sample, std::vector<double>& row) {
-            const std::vector<double> left = sample.port.mass_by_size(bounds, axis, above);
+            const std::vector<double> left = sample.scene.port.mass_by_size(bounds, axis, above);
             for (std::size_t k = 0; k < left.size(); ++k) row.push_back((*first)[k] - left[k]);
           },
           first};
 }
 
 Quantity mean_force_quantity(const QuantityRequest& request, LAMMPS* lmp) {
-  std::string name = request.group;
-  const int group = lmp->group->find(name.data());
-  if (group < 0)
+  const int bit = group_bit(lmp, request.group);
+  if (bit == 0)
     throw_user_error({"lbm monitor", "mean_force", request.group, "name a group that exists",
                       "write `group " + request.group + " ...` before"});
-  const int bit = lmp->group->bitmask[group];
   return {vector_columns("mean_force_" + request.group, "n"),
           [bit](Sample& sample, std::vector<double>& row) {
-            sample.simulation.refresh_loads();
-            append_vector(row, sample.port.mean_load(bit));
+            sample.scene.simulation.refresh_loads();
+            append_vector(row, sample.scene.port.mean_load(bit));
           }};
 }
 
-/// A reference with [*] stands for one with each row of the compute's or fix's array, or each value of its
-/// vector.
-std::vector<std::string> expanded(const std::string& reference, LAMMPS* lmp) {
-  const std::size_t bracket = reference.find('[');
-  std::string id = reference.substr(2, bracket == std::string::npos ? bracket : bracket - 2);
-  int rows = 0, values = 0;
-  bool exists = false;
-  if (reference[0] == 'c') {
-    const int n = lmp->modify->find_compute(id.data());
-    exists = n >= 0;
-    if (exists) {
-      rows = lmp->modify->compute[n]->size_array_rows;
-      values = lmp->modify->compute[n]->size_vector;
-    }
-  } else if (reference[0] == 'f') {
-    const int n = lmp->modify->find_fix(id.data());
-    exists = n >= 0;
-    if (exists) {
-      rows = lmp->modify->fix[n]->size_array_rows;
-      values = lmp->modify->fix[n]->size_vector;
-    }
-  } else {
-    const int n = lmp->input->variable->find(id.data());
-    exists = n >= 0 && lmp->input->variable->equalstyle(n) != 0;
-  }
-  if (!exists)
-    throw_user_error({"lbm monitor", "reference", reference,
-                      "name a compute, fix or equal-style variable that exists",
-                      "define it before the first lbm run"});
-  const std::size_t star = reference.find("[*]");
-  if (star == std::string::npos) return {reference};
-  const bool array = reference.find('[', star + 1) != std::string::npos;
-  std::vector<std::string> all;
-  for (int k = 1; k <= (array ? rows : values); ++k)
-    all.push_back(reference.substr(0, star) + fmt::format("[{}]", k) + reference.substr(star + 3));
-  if (all.empty())
-    throw_user_error({"lbm monitor", "reference", reference, "have rows or values for [*]",
-                      "c_ID[*] takes a vector's values, c_ID[*][k] column k of an array"});
-  return all;
-}
-
 Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
-  const std::vector<std::string> references = expanded(request.word, lmp);
+  const std::vector<std::string> references = expanded_references(lmp, request.word);
   std::vector<std::string> columns;
   for (std::size_t k = 0; k < references.size(); ++k) {
     if (request.name.empty())
@@ -300,8 +252,8 @@ Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
   return {columns,
           [references, first, relative = request.relative](Sample& sample, std::vector<double>& row) {
             std::vector<double> values;
-            for (std::string formula : references)
-              values.push_back(sample.lmp->input->variable->compute_equal(formula.data()));
+            for (const std::string& reference : references)
+              values.push_back(value_of_reference(sample.scene.lmp, reference));
             if (relative && first->empty()) {
               for (std::size_t k = 0; k < values.size(); ++k)
                 if (values[k] == 0)
@@ -333,13 +285,13 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
                                              planes.spacing * static_cast<double>(planes.end_of_room())));
             }};
   if (word.starts_with("layer_")) {
-    check_layers(monitor, now.simulation);
-    return layer_quantity(word, monitor, now.simulation.origin()[axis]);
+    check_layers(monitor, now.scene.simulation);
+    return layer_quantity(word, monitor, now.scene.simulation.origin()[axis]);
   }
   if (word == "solid_force")
     return {vector_columns(word, "n"),
             [](Sample& sample, std::vector<double>& row) { append_vector(row, sample.grains().load); }};
-  if (word == "mean_force") return mean_force_quantity(request, now.lmp);
+  if (word == "mean_force") return mean_force_quantity(request, now.scene.lmp);
   if (word == "mass") return mass_quantity();
   if (word == "discharge") return discharge_quantity(axis);
   if (word == "kinetic_energy")
@@ -361,7 +313,7 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
               const lbm::FluidExtremes& e = sample.planes().extremes;
               row.insert(row.end(), {lbm::mach_of(e), e.smallest_density, e.largest_density});
             }};
-  return reference_quantity(request, now.lmp);
+  return reference_quantity(request, now.scene.lmp);
 }
 
 }  // namespace suffuse::coupling

@@ -90,34 +90,37 @@ EffectSettings RunEffects::start(const CoupledSettings& settings, LiggghtsPort& 
   return switches_->settings();
 }
 
-std::vector<std::string> RunEffects::begin(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                                           CoupledSimulation& simulation, const FilmForces::Planes& planes) {
+std::vector<std::string> RunEffects::begin(const Scene& scene, const FilmForces::Planes& planes) {
+  CoupledSimulation& simulation = scene.simulation;
   planes_ = planes;
   if (restored_) looked_at_ = simulation.fluid().steps();  // the run that saved it has looked
   restored_ = false;
   const double water = simulation.units().velocity_to_si(simulation.extremes().largest_speed);
-  std::vector<std::string> lines = switches_->begin(facts_now(port, simulation, water), simulation.time_si());
+  std::vector<std::string> lines =
+      switches_->begin(facts_now(scene.port, simulation, water), simulation.time_si());
   const EffectSettings effects = switches_->settings();
   simulation.set_effects(effects);
-  films_.follow(lmp, effects.lubrication == Switch::on, port.summary().smallest_radius, simulation, planes_);
+  films_.follow(scene.lmp, effects.lubrication == Switch::on, scene.port.summary().smallest_radius,
+                simulation, planes_);
   return lines;
 }
 
-std::vector<std::string> RunEffects::look(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                                          CoupledSimulation& simulation, const lbm::FluidExtremes& extremes) {
+std::vector<std::string> RunEffects::look(const Scene& scene, const lbm::FluidExtremes& extremes) {
+  CoupledSimulation& simulation = scene.simulation;
   const long step = simulation.fluid().steps();
   if (step % kEffectsEvery != 0 || step == looked_at_) return {};
   looked_at_ = step;
   const double water = simulation.units().velocity_to_si(extremes.largest_speed);
-  std::vector<std::string> lines = switches_->look(facts_now(port, simulation, water), simulation.time_si());
+  std::vector<std::string> lines =
+      switches_->look(facts_now(scene.port, simulation, water), simulation.time_si());
   if (lines.empty()) return lines;
   const EffectSettings effects = switches_->settings();
   simulation.set_effects(effects);
-  if (films_.follow(lmp, effects.lubrication == Switch::on, port.summary().smallest_radius, simulation,
-                    planes_)) {
+  if (films_.follow(scene.lmp, effects.lubrication == Switch::on, scene.port.summary().smallest_radius,
+                    simulation, planes_)) {
     simulation.refresh_loads();  // the grains' memory travels with them
-    port.set_up_with_new_fixes();
-    simulation.map_anew();
+    scene.port.set_up_with_new_fixes();
+    (void)simulation.map_anew();
   }
   return lines;
 }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/film_forces.h"
+#include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
-#include "film_forces.h"
 #include "lbm_settings.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
@@ -38,12 +38,10 @@ class RunEffects {
 
   /// At the beginning of an `lbm run`, before LIGGGHTS is set up. Returns lines about what has changed.
   /// Collective.
-  std::vector<std::string> begin(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-                                 const FilmForces::Planes& planes);
+  std::vector<std::string> begin(const Scene& scene, const FilmForces::Planes& planes);
 
   /// Within a run, after so many fluid steps. Collective.
-  std::vector<std::string> look(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation,
-                                const lbm::FluidExtremes& extremes);
+  std::vector<std::string> look(const Scene& scene, const lbm::FluidExtremes& extremes);
 
   const std::vector<EffectState>& states() const { return switches_->states(); }
   const EffectState& state(const std::string& name) const { return switches_->state(name); }

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "../liggghts/grains_file.h"
-#include "comm.h"
-#include "lammps.h"
+#include "../liggghts/instance.h"
 #include "saved_set.h"
 #include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
@@ -17,7 +16,6 @@
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/checkpoint.h"
-#include "update.h"
 
 namespace suffuse::coupling {
 
@@ -28,7 +26,7 @@ namespace {
 void open_files_of(const OutputRequest& request, bool goes_on, LAMMPS_NS::LAMMPS* lmp) {
   const std::string who = "lbm output " + request.id;
   std::string notes;
-  on_first_rank(who, lmp->world, [&] {
+  on_first_rank(who, communicator_of(lmp), [&] {
     for (const std::string& file : files_of(request)) {
       require_writable(file, who);
       if (goes_on) continue;
@@ -63,45 +61,47 @@ std::string grains_file(const std::string& file) {
 void write_checkpoint(LAMMPS_NS::LAMMPS* lmp, const CoupledSimulation& simulation,
                       const MonitorReferences& references, const std::string& file) {
   const std::string who = "lbm restart write";
-  const NewSet set = begin_set(file, who, lmp->world);
+  const NewSet set = begin_set(file, who, communicator_of(lmp));
   lbm::save_state(simulation.fluid(), set.fluid);
   {
-    Hdf5File state(set.fluid, Hdf5File::Mode::append, lmp->world);
+    Hdf5File state(set.fluid, Hdf5File::Mode::append, communicator_of(lmp));
     state.reserve(sizeof(float) *
                   lbm::CellBox{{0, 0, 0}, simulation.fluid().decomposition().cells()}.volume());
-    state.set_attribute("/", kGrainsStep, static_cast<std::int64_t>(lmp->update->ntimestep));
+    state.set_attribute("/", kGrainsStep, step_of(lmp));
     save_settings(state, simulation);
-    save_references(state, references, lmp->world);
+    save_references(state, references, communicator_of(lmp));
     save_pore_coefficients(state, simulation);
     save_walls(state, simulation);
     save_method(state, simulation);
     state.close();
   }
   write_grains_file(lmp, set.grains, who);
-  finish_set(file, who, lmp->world);
+  finish_set(file, who, communicator_of(lmp));
 }
 
 namespace {
-std::int64_t step_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
-  return Hdf5File(file, Hdf5File::Mode::read, lmp->world).integer_attribute("/", kGrainsStep);
+std::int64_t saved_step(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
+  return Hdf5File(file, Hdf5File::Mode::read, communicator_of(lmp)).integer_attribute("/", kGrainsStep);
 }
 }  // namespace
 
 bool grains_are_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
-  return step_of(lmp, file) == lmp->update->ntimestep;
+  return saved_step(lmp, file) == step_of(lmp);
 }
 
 void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
-  const std::int64_t saved = step_of(lmp, file);
-  if (saved != lmp->update->ntimestep)
+  const std::int64_t saved = saved_step(lmp, file);
+  if (saved != step_of(lmp))
     throw_user_error(
         {"lbm restart", "read " + file, fmt::format("water of LIGGGHTS's step {}", saved),
-         fmt::format("meet grains of that step, not of step {}", lmp->update->ntimestep),
+         fmt::format("meet grains of that step, not of step {}", step_of(lmp)),
          "read_restart the grains of the same state: FILE.grains with FILE, FILE.1/grains with FILE.1"});
 }
 
-void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                        CoupledSimulation& simulation, std::optional<double> continue_after) {
+void RunOutput::prepare(const LbmSettings& settings, const Scene& scene, const MappedScene& mapped,
+                        std::optional<double> continue_after) {
+  LAMMPS_NS::LAMMPS* const lmp = scene.lmp;
+  CoupledSimulation& simulation = scene.simulation;
   std::erase_if(monitors_, [&](const auto& open) {
     return std::none_of(settings.monitors.begin(), settings.monitors.end(),
                         [&](const MonitorRequest& m) { return m.id == open->request().id; });
@@ -109,8 +109,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
   for (const MonitorRequest& request : settings.monitors)
     if (std::none_of(monitors_.begin(), monitors_.end(),
                      [&](const auto& open) { return open->request().id == request.id; }))
-      monitors_.push_back(
-          std::make_unique<Monitor>(request, lmp, port, simulation, continue_after, references_));
+      monitors_.push_back(std::make_unique<Monitor>(request, scene, mapped, continue_after, references_));
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
@@ -120,7 +119,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (std::any_of(fields_.begin(), fields_.end(),
                     [&](const auto& open) { return open->request.id == request.id; }))
       continue;
-    const bool continues = continue_after && exists_for_all(request.file, lmp->world);
+    const bool continues = continue_after && exists_for_all(request.file, communicator_of(lmp));
     open_files_of(request, continue_after.has_value(), lmp);
     lbm::FieldOutputSettings fields;
     fields.path = request.file;
@@ -147,7 +146,7 @@ void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, Lig
     if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
   }
   checkpoint_ = settings.checkpoint;
-  if (checkpoint_) require_free_for_sets(checkpoint_->file, "lbm restart write", lmp->world);
+  if (checkpoint_) require_free_for_sets(checkpoint_->file, "lbm restart write", communicator_of(lmp));
   checkpoint_every_ = checkpoint_ ? simulation.units().steps_in(checkpoint_->every) : 0;
 }
 
@@ -168,24 +167,27 @@ bool RunOutput::due(long step) const {
                      [&](const auto& fields) { return step % fields->every == 0; });
 }
 
-void RunOutput::write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation) {
+void RunOutput::write(const Scene& scene) {
+  CoupledSimulation& simulation = scene.simulation;
   const long step = simulation.fluid().steps();
-  if (saves(step)) (void)save(lmp, port, simulation);
-  simulation.map();  // cells as the grains are now
+  if (saves(step)) (void)save(scene);
+  const MappedScene mapped = simulation.map();  // cells as the grains are now
   for (const auto& monitor : monitors_)
-    if (step % monitor->every() == 0) monitor->write(lmp, port, simulation, sample_);
+    if (step % monitor->every() == 0) monitor->write(scene, mapped, sample_);
   for (const auto& fields : fields_) {
     const bool first = fields->last_step < 0 && !fields->continues;
     if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
     fields->last_step = step;
     fields->fluid.write(simulation.fluid());
     if (!fields->grains) continue;
-    write_grains(*fields, port, simulation);
+    write_grains(*fields, scene);
   }
   started_ = true;
 }
 
-void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation) {
+void RunOutput::write_grains(Fields& fields, const Scene& scene) {
+  LiggghtsPort& port = scene.port;
+  CoupledSimulation& simulation = scene.simulation;
   simulation.refresh_loads();
   GrainSnapshot snapshot;
   snapshot.step = simulation.fluid().steps();
@@ -200,13 +202,13 @@ void RunOutput::write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulati
 }
 
 /// Before anything else is written at this instant, so that a run which takes the state up writes the same.
-std::optional<std::string> RunOutput::save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-                                           CoupledSimulation& simulation) {
+std::optional<std::string> RunOutput::save(const Scene& scene) {
   if (!checkpoint_) return {};
+  CoupledSimulation& simulation = scene.simulation;
   simulation.refresh_loads();  // the grains' memory is saved with them
-  port.set_up_again();
-  write_checkpoint(lmp, simulation, references(), checkpoint_->file);
-  simulation.map_anew();
+  scene.port.set_up_again();
+  write_checkpoint(scene.lmp, simulation, references(), checkpoint_->file);
+  (void)simulation.map_anew();
   sample_.reset();  // of cells as they were
   last_state_ = fmt::format("{} (fluid step {})", checkpoint_->file, simulation.fluid().steps());
   return checkpoint_->file;
@@ -217,8 +219,7 @@ const PlaneSums* RunOutput::sample_now(long step, CoupledSimulation& simulation)
   const auto due = std::find_if(monitors_.begin(), monitors_.end(),
                                 [&](const auto& monitor) { return step % monitor->every() == 0; });
   if (due == monitors_.end() || saves(step)) return nullptr;
-  simulation.map();
-  sample_ = plane_sums(simulation, (*due)->request().axis);
+  sample_ = plane_sums(simulation.map(), (*due)->request().axis);
   return &*sample_;
 }
 

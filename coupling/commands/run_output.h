@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
 #include "lbm_settings.h"
 #include "monitor.h"
@@ -23,8 +23,8 @@ class RunOutput {
  public:
   /// Opens what the script has asked for since the last call and drops what it has taken back. With
   /// `continue_after` (s) new files go on with what an earlier run left in them up to then. Collective.
-  void prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
-               CoupledSimulation& simulation, std::optional<double> continue_after);
+  void prepare(const LbmSettings& settings, const Scene& scene, const MappedScene& mapped,
+               std::optional<double> continue_after);
 
   /// Is anything due once the fluid has made so many steps?
   bool due(long step) const;
@@ -34,11 +34,11 @@ class RunOutput {
   bool wants_contacts(long step) const;
 
   /// Writes what is due now; of new fields and grains their first state, whatever their interval. Collective.
-  void write(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+  void write(const Scene& scene);
 
   /// Saves the state now, within a run, where restart files were asked for; says in which file. The run goes
   /// on as one that takes this state up (restart_instant.h). Collective.
-  std::optional<std::string> save(LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port, CoupledSimulation& simulation);
+  std::optional<std::string> save(const Scene& scene);
 
   /// Which states this process has saved or taken up last: its file and step; empty: none.
   std::string last_state() const { return last_state_; }
@@ -67,7 +67,7 @@ class RunOutput {
   };
 
   bool saves(long step) const;
-  static void write_grains(Fields& fields, LiggghtsPort& port, CoupledSimulation& simulation);
+  static void write_grains(Fields& fields, const Scene& scene);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
   MonitorReferences references_, effects_;

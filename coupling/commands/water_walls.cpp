@@ -33,12 +33,12 @@ lbm::Index3 cell_of(const Vec3& point, const Vec3& origin, double spacing, const
 }
 
 /// Cells whose spaces hold water; none: all spaces do.
-std::vector<lbm::Index3> wet_cells(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings,
-                                   const LiggghtsPort& port, const CoupledSimulation& simulation) {
+std::vector<lbm::Index3> wet_cells(const Scene& scene, const WallSettings& settings) {
+  const CoupledSimulation& simulation = scene.simulation;
   using Water = WallSettings::Water;
   std::vector<Vec3> points;
   if (settings.water == Water::at_points) points = settings.points;
-  if (settings.water == Water::with_grains && !inserts_grains(lmp)) points = port.centres();
+  if (settings.water == Water::with_grains && !inserts_grains(scene.lmp)) points = scene.port.centres();
   std::vector<lbm::Index3> cells;
   for (const Vec3& point : points) {
     cells.push_back(cell_of(point, simulation.origin(), simulation.units().spacing(), simulation.fluid()));
@@ -147,12 +147,12 @@ void read_walls(ArgumentReader& reader, LbmSettings& settings) {
   settings.walls = walls;
 }
 
-bool WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
-                        CoupledSimulation& simulation, const std::string& saved_state) {
+bool WaterWalls::follow(const Scene& scene, const WallSettings& settings, const std::string& saved_state) {
+  CoupledSimulation& simulation = scene.simulation;
   const lbm::Fluid& fluid = simulation.fluid();
   origin_ = simulation.origin();
   spacing_ = simulation.units().spacing();
-  const std::vector<ScriptWall> walls = walls_of_script(lmp, settings.open, origin_, spacing_);
+  const std::vector<ScriptWall> walls = walls_of_script(scene.lmp, settings.open, origin_, spacing_);
   std::string now;
   for (const ScriptWall& wall : walls)
     now += fmt::format("{} {}{}; ", wall.name, wall.geometry, wall.open ? " open" : "");
@@ -179,7 +179,7 @@ bool WaterWalls::follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, co
   const lbm::Walls water =
       saved ? lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links), *saved)
             : lbm::divide(fluid.decomposition(), fluid.settings().faces, std::move(cuts.links),
-                          wet_cells(lmp, settings, port, simulation));
+                          wet_cells(scene, settings));
   if (const double share = closed_share(water, fluid.decomposition()); share > 0)
     lines_.push_back(
         fmt::format("{:<12}{:.3g} % of the box lie behind them, without water (`lbm walls water` decides)",

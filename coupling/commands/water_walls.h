@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "../liggghts/liggghts_port.h"
+#include "../liggghts/scene.h"
 #include "../liggghts/script_walls.h"
 #include "lbm_settings.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -18,8 +18,7 @@ class WaterWalls {
   /// Gives the simulation the walls that LIGGGHTS has now, if they are not those that it has already. With a
   /// saved state (its file, or empty) that had the same ones, the same cells lie behind them. True if they
   /// changed. A UserError for walls that cannot be solid for water. Collective.
-  bool follow(LAMMPS_NS::LAMMPS* lmp, const WallSettings& settings, const LiggghtsPort& port,
-              CoupledSimulation& simulation, const std::string& saved_state);
+  bool follow(const Scene& scene, const WallSettings& settings, const std::string& saved_state);
 
   /// For the manifest: which walls act on the water, which do not and why; nothing without walls.
   const std::vector<std::string>& lines() const { return lines_; }

@@ -6,14 +6,14 @@
 
 namespace suffuse::coupling {
 
-double fine_diameter(const LiggghtsPort& port, const LiggghtsPort::Summary& grains) {
+double fine_diameter(const GrainQuestions& questions, const GrainQuestions::Summary& grains) {
   constexpr int classes = 64;
   constexpr double share = 0.25;
   const double least = 2 * grains.smallest_radius, growth = grains.largest_radius / grains.smallest_radius;
   if (growth < 1 + 1e-9) return least;
   std::vector<double> bounds;
   for (int n = 1; n < classes; ++n) bounds.push_back(least * std::pow(growth, double(n) / classes));
-  const std::vector<double> counts = port.grains_by_size(bounds);
+  const std::vector<double> counts = questions.grains_by_size(bounds);
   std::vector<double> surfaces;
   for (std::size_t n = 0; n < counts.size(); ++n) {
     const double middle = least * std::pow(growth, (static_cast<double>(n) + 0.5) / classes);

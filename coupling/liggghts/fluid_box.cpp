@@ -12,8 +12,8 @@
 
 namespace suffuse::coupling {
 
-FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::string& region) {
-  if (region.empty()) return {port.box_low(), port.box_size()};
+FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const GrainQuestions& questions, const std::string& region) {
+  if (region.empty()) return {questions.box_low(), questions.box_size()};
   std::string name = region;
   const int index = lmp->domain->find_region(name.data());
   if (index < 0 || std::string(lmp->domain->regions[index]->style) != "block")
@@ -22,11 +22,11 @@ FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::
   const auto* block = lmp->domain->regions[index];
   FluidBox box{{block->extent_xlo, block->extent_ylo, block->extent_zlo},
                {block->extent_xhi, block->extent_yhi, block->extent_zhi}};
-  const Vec3 low = port.box_low(), high = low + port.box_size();
+  const Vec3 low = questions.box_low(), high = low + questions.box_size();
   for (int a = 0; a < 3; ++a) {
     box.low[a] = std::max(box.low[a], low[a]);
     box.size[a] = std::min(box.size[a], high[a]) - box.low[a];
-    if (lmp->domain->periodicity[a] != 0 && box.size[a] < 0.999999 * port.box_size()[a])
+    if (lmp->domain->periodicity[a] != 0 && box.size[a] < 0.999999 * questions.box_size()[a])
       throw_user_error({"lbm lattice", "region", region, "span the whole box along a periodic axis", ""});
   }
   return box;

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "liggghts_port.h"
+#include "grain_questions.h"
 
 namespace suffuse::coupling {
 
@@ -13,6 +13,6 @@ struct FluidBox {
 
 /// A block region of the script, or LIGGGHTS's box where `region` is empty. A UserError where the region is
 /// none, or does not span a periodic axis.
-FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const std::string& region);
+FluidBox fluid_box(LAMMPS_NS::LAMMPS* lmp, const GrainQuestions& questions, const std::string& region);
 
 }  // namespace suffuse::coupling

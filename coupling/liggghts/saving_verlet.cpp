@@ -19,6 +19,7 @@
 #include "lammps.h"
 #include "modify.h"
 #include "register_styles.h"
+#include "restart_commands.h"
 #include "restart_instant.h"
 #include "signal_handling.h"
 #include "styles/style_support.h"

@@ -44,7 +44,4 @@ void run_watched(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 /// Script command `restart_set FILE every N [stop after TIME]`, or `restart_set off`: from the next `run` on.
 void restart_set(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg);
 
-/// A UserError where sets of grains alone are being saved: with water they would be half a state.
-void require_no_sets_of_grains(LAMMPS_NS::LAMMPS* lmp, const std::string& who);
-
 }  // namespace suffuse::coupling

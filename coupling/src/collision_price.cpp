@@ -3,8 +3,9 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
+
+#include "suffuse/common/processor_time.h"
 
 namespace suffuse::coupling {
 
@@ -20,11 +21,10 @@ lbm::Fluid trial_fluid(lbm::FluidSettings settings, const lbm::CollisionSettings
   return fluid;
 }
 
-/// Of the processor, which other programs on it take nothing of.
 double seconds_of_two_steps(lbm::Fluid& fluid) {
-  const std::clock_t start = std::clock();
+  const double start = processor_seconds();
   fluid.run(2);  // an even and an odd one
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return processor_seconds() - start;
 }
 
 }  // namespace

@@ -8,12 +8,12 @@ Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now,
   Load load = exchange;
   const double mass = rule.fluid_density * sphere_volume(now.radius);
   load.force +=
-      (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_step;
+      (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_passed;
   if (now.radius < rule.spacing) return load;
   const double moment =
       mass * (micromechanics::sphere_inertia(1, now.radius) + rule.spacing * rule.spacing / 6);
   load.torque += (moment * (now.angular_velocity - before.angular_velocity) + lead.spin - before.lead.spin) /
-                 rule.time_step;
+                 rule.time_passed;
   return load;
 }
 

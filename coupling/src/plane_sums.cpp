@@ -24,7 +24,8 @@ static_assert(sizeof(Totals) <= sizeof(Sums));
 
 }  // namespace
 
-PlaneSums plane_sums(const CoupledSimulation& simulation, int axis) {
+PlaneSums plane_sums(const MappedScene& scene, int axis) {
+  const CoupledSimulation& simulation = scene.simulation();
   const lbm::Fluid& fluid = simulation.fluid();
   const lbm::Units& units = simulation.units();
   const lbm::Decomposition& d = fluid.decomposition();

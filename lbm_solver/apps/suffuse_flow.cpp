@@ -21,6 +21,7 @@
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/flow_case.h"
 #include "suffuse/lbm/health.h"
+#include "suffuse/lbm/run_loop.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ double seconds_since(Clock::time_point start) {
 }
 
 /// A running case: the fluid and what is due at which step.
-class FlowRun {
+class FlowRun final : private RunSteps {
  public:
   explicit FlowRun(const FlowCase& flow)
       : flow_(flow),
@@ -64,26 +65,21 @@ class FlowRun {
   End run() {
     tell_settings();
     open_files();
-    const long first = fluid_.steps(), last = first + units_.steps_in(flow_.time);
-    const long monitor_every = units_.steps_in(flow_.monitor_every),
-               output_every = flow_.output ? units_.steps_in(flow_.output_every) : 1;
-    const long check_every = std::max(10L, (last - first) / 100), tenth = std::max(2L, (last - first) / 10);
+    first_ = fluid_.steps();
+    const long steps = units_.steps_in(flow_.time);
+    last_ = first_ + steps;
+    check_every_ = std::max(10L, steps / 100);
     ProgressLine progress(speaks_);
-    bool steady = false;
-    report(progress, first, first, last);
-    write_due(first, monitor_every, output_every);
-    while (fluid_.steps() < last && !steady) {
-      step();
-      const long done = fluid_.steps() - first;
-      write_due(done, monitor_every, output_every);
-      if (done % check_every == 0 || fluid_.steps() == last) report(progress, first, fluid_.steps(), last);
-      steady = flow_.until_steady && done % tenth == 0 && is_steady();
-    }
+    report(first_);
+    progress.update(0, [this] { return details_; });
+    write_due(first_);
+    const RunEnd end = run_loop(
+        *this, {first_, last_, check_every_, flow_.until_steady, std::max(2L, steps / 10)}, progress);
     progress.finish(details_);
     if (!flow_.restart_write.empty()) save();
-    if (flow_.until_steady) tell_steadiness(steady, fluid_.steps() - first);
-    tell_speed(fluid_.steps() - first);
-    return flow_.until_steady && !steady ? End::not_steady : End::as_told;
+    if (flow_.until_steady) tell_steadiness(end, fluid_.steps() - first_);
+    tell_speed(fluid_.steps() - first_);
+    return flow_.until_steady && !end.steady ? End::not_steady : End::as_told;
   }
 
  private:
@@ -132,7 +128,7 @@ class FlowRun {
     });
   }
 
-  void step() {
+  void advance(long, bool) override {
     const double time = units_.time_to_si(static_cast<double>(fluid_.steps()));
     const auto start = Clock::now();
     fluid_.set_faces(faces_at(flow_, units_, time));
@@ -140,6 +136,14 @@ class FlowRun {
     step_seconds_ += seconds_since(start);
     fluid_.set_force(force_at(flow_, units_, time + units_.time_step()));
   }
+
+  void look(long step) override {
+    write_due(step - first_);
+    if ((step - first_) % check_every_ == 0 || step == last_) report(step);
+  }
+
+  MeanMotion mean_motion() override { return {superficial_velocity(), Vec3::Zero()}; }
+  std::string details() override { return details_; }
 
   void tell_settings() const {
     if (!speaks_) return;
@@ -204,8 +208,9 @@ class FlowRun {
     return units_.velocity_to_si(Vec3(fluid_.momentum() / volume));
   }
 
-  void write_due(long done, long monitor_every, long output_every) {
-    const bool fields = output_ && done % output_every == 0, row = monitor_ && done % monitor_every == 0;
+  void write_due(long done) {
+    const auto due = [&](double every) { return done % units_.steps_in(every) == 0; };
+    const bool fields = output_ && due(flow_.output_every), row = monitor_ && due(flow_.monitor_every);
     if (fields || row) require_health();  // nothing is written of a flow that is lost
     if (fields) output_->write(fluid_);
     if (!row) return;
@@ -222,34 +227,22 @@ class FlowRun {
     return extremes;
   }
 
-  void report(ProgressLine& progress, long first, long now, long last) {
+  void report(long step) {
     const FluidExtremes extremes = require_health();
     const double cells = static_cast<double>(CellBox{{0, 0, 0}, fluid_.decomposition().cells()}.volume());
-    details_ =
-        fmt::format("{:.4g} s  {:.1f} MLUPS  {}", units_.time_to_si(static_cast<double>(now)),
-                    step_seconds_ > 0 ? cells * static_cast<double>(now - first) / step_seconds_ * 1e-6 : 0.,
-                    health_text(extremes));
-    progress.update(static_cast<double>(now - first) / static_cast<double>(last - first),
-                    [this] { return details_; });
+    details_ = progress_details(fmt::format("{:.4g} s", units_.time_to_si(static_cast<double>(step))), cells,
+                                static_cast<double>(step - first_), step_seconds_, health_text(extremes));
   }
 
-  bool is_steady() {
-    const Vec3 mean = superficial_velocity();
-    const bool compared = last_mean_.has_value();
-    change_ = compared && mean.norm() > 0 ? (mean - *last_mean_).norm() / mean.norm() : 0;
-    last_mean_ = mean;
-    return compared && change_ <= *flow_.until_steady;
-  }
-
-  void tell_steadiness(bool steady, long steps) const {
+  void tell_steadiness(const RunEnd& end, long steps) const {
     if (!speaks_) return;
     fmt::print(
-        "{} after {:.5g} s{}\n", steady ? "steady" : "not yet steady",
-        units_.time_to_si(static_cast<double>(steps)),
-        steady ? ""
-               : fmt::format(": the mean velocity still changes by {:.2g} of itself in a tenth of the run; "
-                             "give [run] time more",
-                             change_));
+        "{}{}\n", steadiness_text(end.steady, units_.time_to_si(static_cast<double>(steps))),
+        end.steady
+            ? ""
+            : fmt::format(": the mean velocity still changes by {:.2g} of itself in a tenth of the run; "
+                          "give [run] time more",
+                          end.change));
   }
 
   void tell_speed(long steps) {
@@ -277,8 +270,8 @@ class FlowRun {
   bool speaks_;
   std::optional<FieldOutput> output_;
   std::optional<TimeSeriesFile> monitor_;
-  std::optional<Vec3> last_mean_;  ///< a tenth of the run ago
-  double change_ = 0;              ///< of the mean velocity since then, as a share of it
+  long first_ = 0, last_ = 0;  ///< steps made before the run, and when it has ended
+  long check_every_ = 1;
   std::string details_;
   double fluid_cells_ = 0, step_seconds_ = 0;
 };

@@ -55,7 +55,7 @@ FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg)
   restart_peratom = 1;
   create_attribute = 1;
   comm_forward = 6;
-  comm_reverse = 6;
+  comm_reverse = kSumValues;
   grow_arrays(atom->nmax);
   atom->add_callback(0);
   atom->add_callback(1);
@@ -336,27 +336,20 @@ void FixHydrodynamicForce::unpack_comm(int n, int first, double* buffer) {
 }
 
 int FixHydrodynamicForce::pack_reverse_comm(int n, int first, double* buffer) {
-  for (int k = 0; k < n; ++k) {
-    std::copy_n(sum_force_->data() + 3 * (first + k), 3, buffer + 6 * k);
-    std::copy_n(sum_torque_->data() + 3 * (first + k), 3, buffer + 6 * k + 3);
-  }
-  return 6;
+  std::copy_n(sums_ + kSumValues * first, kSumValues * n, buffer);
+  return kSumValues;
 }
 
 void FixHydrodynamicForce::unpack_reverse_comm(int n, int* list, double* buffer) {
   for (int k = 0; k < n; ++k)
-    for (int a = 0; a < 3; ++a) {
-      (*sum_force_)[static_cast<std::size_t>(3 * list[k] + a)] += buffer[6 * k + a];
-      (*sum_torque_)[static_cast<std::size_t>(3 * list[k] + a)] += buffer[6 * k + 3 + a];
-    }
+    for (int v = 0; v < kSumValues; ++v) sums_[kSumValues * list[k] + v] += buffer[kSumValues * k + v];
 }
 
 void FixHydrodynamicForce::update_ghost_velocities() {
   comm->forward_comm_fix(this);
 }
 
-void FixHydrodynamicForce::sum_over_ghosts(std::vector<double>& forces, std::vector<double>& torques) {
-  sum_force_ = &forces;
-  sum_torque_ = &torques;
+void FixHydrodynamicForce::sum_over_ghosts(double* values) {
+  sums_ = values;
   comm->reverse_comm_fix(this);
 }

@@ -76,9 +76,10 @@ class FixHydrodynamicForce : public Fix {
   /// half a step behind. Collective.
   void update_ghost_velocities();
 
-  /// Adds what ghosts hold in `force` and `torque` (3 for each of owned and ghost grains) to their owners.
+  /// Adds what ghosts hold in `values` (kSumValues for each of owned and ghost grains) to their owners.
   /// Collective.
-  void sum_over_ghosts(std::vector<double>& forces, std::vector<double>& torques);
+  static constexpr int kSumValues = 12;
+  void sum_over_ghosts(double* values);
 
  private:
   /// What this fix adds to a grain's force and torque: the load, and the virtual inertia times the last
@@ -103,8 +104,7 @@ class FixHydrodynamicForce : public Fix {
   double fluid_time_ = 0;    // s, at the step fluid_step_
   bigint fluid_step_ = 0;
   Fluid fluid_ = Fluid::rests;
-  std::vector<double>* sum_force_ = nullptr;  // set during sum_over_ghosts
-  std::vector<double>* sum_torque_ = nullptr;
+  double* sums_ = nullptr;  // set during sum_over_ghosts
 };
 
 }  // namespace LAMMPS_NS

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
-#include "atom.h"
 #include "comm.h"
 #include "compute.h"
 #include "domain.h"
@@ -17,6 +16,7 @@
 #include "output.h"
 #include "pair_law.h"
 #include "restart_record.h"
+#include "servo_box.h"
 #include "signal_handling.h"
 #include "suffuse/common/error.h"
 #include "update.h"
@@ -40,8 +40,6 @@ constexpr double kStaticRayleighTimes = 20000 * 0.0994;
 /// Share of the target below which a sample with friction may be compressed faster: it remembers its way.
 constexpr double kFrictionalApproach = 0.01;
 constexpr int kSamplesPerWindow = 20;
-/// Of what pack() gives.
-constexpr int kStateVersion = 3;
 
 std::string who() {
   return "fix stress/servo";
@@ -108,19 +106,19 @@ void FixStressServo::init() {
   pressure_ = modify->compute[modify->find_compute(pressure_id_.data())];
   pressure_->addstep(update->ntimestep);  // so that the virial is there at setup
   const auto grains = suffuse::grain_statistics(lmp, groupbit);
-  grains_at_start_ = static_cast<double>(grains.count);
-  density_ = grains.mean_density;
-  solid_volume_ = grains.solid_volume;
-  diameter_ = arguments_.diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::kMass) diameter_ = grains.mass_mean_diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber) diameter_ = grains.number_mean_diameter;
+  memory_.grains.count = static_cast<double>(grains.count);
+  memory_.grains.density = grains.mean_density;
+  memory_.grains.solid_volume = grains.solid_volume;
+  memory_.grains.diameter = arguments_.diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::kMass)
+    memory_.grains.diameter = grains.mass_mean_diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber)
+    memory_.grains.diameter = grains.number_mean_diameter;
   if (!arguments_.approach_given)
     arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
-  if (restored_ && restored_grains_[0] == grains_at_start_) {  // sums of the same grains in another order
-    density_ = restored_grains_[1];
-    solid_volume_ = restored_grains_[2];
-    diameter_ = restored_grains_[3];
-  }
+  if (restored_ &&
+      restored_grains_.count == memory_.grains.count)  // sums of the same grains in another order
+    memory_.grains = restored_grains_;
   set_static_window();
 }
 
@@ -145,8 +143,8 @@ void FixStressServo::setup(int) {
   measure_stress();
   measure_network();
   stop_step_ = -1;
-  if (!restored_ && state_.reference_lengths.isZero()) {
-    state_.reference_lengths = lengths();
+  if (!restored_ && memory_.state.reference_lengths.isZero()) {
+    memory_.state.reference_lengths = lengths();
     control();  // the box moves from the first step on
   }
   restored_ = false;
@@ -163,16 +161,17 @@ void FixStressServo::schedule() {
 
 void FixStressServo::measure_stress() {
   pressure_->compute_vector();
-  stress_ = Vec3(pressure_->vector[0], pressure_->vector[1], pressure_->vector[2]);
-  shear_ = Vec3(pressure_->vector[3], pressure_->vector[4], pressure_->vector[5]);
+  memory_.stress = Vec3(pressure_->vector[0], pressure_->vector[1], pressure_->vector[2]);
+  memory_.shear = Vec3(pressure_->vector[3], pressure_->vector[4], pressure_->vector[5]);
 }
 
 void FixStressServo::measure_network() {
-  network_ = suffuse::measure_network(lmp, *sampler_, groupbit);
-  is_static_ = servo::sample_static(static_window_, arguments_.settings,
-                                    {static_cast<double>(update->ntimestep) * update->dt,
-                                     servo::mean_stress(stress_), network_.coordination, network_.unbalanced},
-                                    window_);
+  memory_.network = suffuse::measure_network(lmp, *sampler_, groupbit);
+  memory_.is_static = servo::sample_static(
+      memory_.window, arguments_.settings,
+      {static_cast<double>(update->ntimestep) * update->dt, servo::mean_stress(memory_.stress),
+       memory_.network.coordination, memory_.network.unbalanced},
+      window_);
 }
 
 /// A divisor of `every`, so that every sample of the network is a control step.
@@ -186,13 +185,13 @@ void FixStressServo::choose_interval() {
 
 /// A lost sample may well have the target's stress. Grains that an insertion adds are taken up.
 void FixStressServo::check_sample() {
-  if (network_.grains > grains_at_start_) {
+  if (memory_.network.grains > memory_.grains.count) {
     const auto grains = suffuse::grain_statistics(lmp, groupbit);
-    grains_at_start_ = static_cast<double>(grains.count);
-    solid_volume_ = grains.solid_volume;
+    memory_.grains.count = static_cast<double>(grains.count);
+    memory_.grains.solid_volume = grains.solid_volume;
   }
-  suffuse::require_sound_sample(
-      who(), {stress_.allFinite() && shear_.allFinite(), void_ratio(), grains_at_start_, &network_});
+  suffuse::require_sound_sample(who(), {memory_.stress.allFinite() && memory_.shear.allFinite(), void_ratio(),
+                                        memory_.grains.count, &memory_.network});
 }
 
 void FixStressServo::end_of_step() {
@@ -205,7 +204,7 @@ void FixStressServo::end_of_step() {
     schedule();
     report_progress();
   }
-  deform();
+  suffuse::deform_box(lmp, memory_.state.rate);
   if (step == stop_step_) {
     suffuse::EarlyStop::requested = true;
     SignalHandler::request_quit = true;
@@ -215,20 +214,20 @@ void FixStressServo::end_of_step() {
 void FixStressServo::control() {
   servo::Measurement m;
   m.interval = static_cast<double>(interval_) * update->dt;
-  m.stress = stress_;
+  m.stress = memory_.stress;
   m.lengths = lengths();
-  m.bulk_stiffness = network_.bulk_stiffness;
+  m.bulk_stiffness = memory_.network.bulk_stiffness;
   m.inertial_size = inertial_size();
   m.relaxation_time = kRelaxationIntervals * m.interval;
-  m.is_static = is_static_ && state_.phase == servo::Phase::kHolding;
-  const servo::Phase before = state_.phase;
-  state_ = servo::control(arguments_.settings, state_, m);
-  if (state_.phase == servo::Phase::kDone && before != servo::Phase::kDone) {
+  m.is_static = memory_.is_static && memory_.state.phase == servo::Phase::kHolding;
+  const servo::Phase before = memory_.state.phase;
+  memory_.state = servo::control(arguments_.settings, memory_.state, m);
+  if (memory_.state.phase == servo::Phase::kDone && before != servo::Phase::kDone) {
     suffuse::tell(lmp, suffuse::describe_end(id, arguments_.settings.stop, standing()));
     announce_stop();
   }
-  if (rate_note_given_ || state_.phase != servo::Phase::kHolding) return;
-  const double quasi_static = servo::axial_rate_limit(arguments_.settings, state_, m);
+  if (rate_note_given_ || memory_.state.phase != servo::Phase::kHolding) return;
+  const double quasi_static = servo::axial_rate_limit(arguments_.settings, memory_.state, m);
   if (arguments_.settings.axial_rate <= quasi_static) return;
   rate_note_given_ = true;
   suffuse::tell(
@@ -251,36 +250,19 @@ void FixStressServo::announce_stop() {
   modify->addstep_compute_all(stop_step_);
 }
 
-void FixStressServo::deform() {
-  if (state_.rate.isZero()) return;
-  double scale[3], centre[3];
-  for (int d = 0; d < 3; ++d) {
-    scale[d] = std::exp(-state_.rate[d] * update->dt);
-    centre[d] = 0.5 * (domain->boxlo[d] + domain->boxhi[d]);
-    const double half = 0.5 * (domain->boxhi[d] - domain->boxlo[d]) * scale[d];
-    domain->boxlo[d] = centre[d] - half;
-    domain->boxhi[d] = centre[d] + half;
-  }
-  double** x = atom->x;
-  for (int i = 0; i < atom->nlocal; ++i)
-    for (int d = 0; d < 3; ++d) x[i][d] = centre[d] + (x[i][d] - centre[d]) * scale[d];
-  domain->set_global_box();
-  domain->set_local_box();
-}
-
 double FixStressServo::void_ratio() const {
-  return domain->xprd * domain->yprd * domain->zprd / solid_volume_ - 1;
+  return domain->xprd * domain->yprd * domain->zprd / memory_.grains.solid_volume - 1;
 }
 
 double FixStressServo::inertial_number() const {
-  const double p = servo::mean_stress(stress_);
-  const double target = std::max(arguments_.settings.target, state_.largest_stress);
+  const double p = servo::mean_stress(memory_.stress);
+  const double target = std::max(arguments_.settings.target, memory_.state.largest_stress);
   const double reference = p > 0.01 * target && p > 0 ? p : std::max(target, 1.0);
-  return state_.rate.cwiseAbs().maxCoeff() * inertial_size() / std::sqrt(reference);
+  return memory_.state.rate.cwiseAbs().maxCoeff() * inertial_size() / std::sqrt(reference);
 }
 
 double FixStressServo::inertial_size() const {
-  return diameter_ * std::sqrt(density_);
+  return memory_.grains.diameter * std::sqrt(memory_.grains.density);
 }
 
 Vec3 FixStressServo::lengths() const {
@@ -288,60 +270,60 @@ Vec3 FixStressServo::lengths() const {
 }
 
 suffuse::ServoStanding FixStressServo::standing() const {
-  const double waited = static_cast<double>(update->ntimestep) * update->dt - static_window_.start;
+  const double waited = static_cast<double>(update->ntimestep) * update->dt - memory_.window.start;
   return {update->ntimestep,
           update->laststep,
-          state_.phase,
-          servo::mean_stress(stress_),
-          servo::deviatoric_stress(stress_, arguments_.settings.axis),
+          memory_.state.phase,
+          servo::mean_stress(memory_.stress),
+          servo::deviatoric_stress(memory_.stress, arguments_.settings.axis),
           void_ratio(),
-          network_.coordination,
-          servo::axial_strain(state_, lengths(), arguments_.settings.axis),
+          memory_.network.coordination,
+          servo::axial_strain(memory_.state, lengths(), arguments_.settings.axis),
           inertial_number(),
-          network_.unbalanced,
+          memory_.network.unbalanced,
           (window_ - waited) / update->dt};
 }
 
 double FixStressServo::compute_scalar() {
-  return servo::mean_stress(stress_);
+  return servo::mean_stress(memory_.stress);
 }
 
 double FixStressServo::compute_vector(int n) {
   switch (n) {
     case 0:
-      return servo::mean_stress(stress_);
+      return servo::mean_stress(memory_.stress);
     case 1:
-      return servo::deviatoric_stress(stress_, arguments_.settings.axis);
+      return servo::deviatoric_stress(memory_.stress, arguments_.settings.axis);
     case 2:
       return void_ratio();
     case 3:
-      return servo::axial_strain(state_, lengths(), arguments_.settings.axis);
+      return servo::axial_strain(memory_.state, lengths(), arguments_.settings.axis);
     case 4:
-      return servo::volumetric_strain(state_, lengths());
+      return servo::volumetric_strain(memory_.state, lengths());
     case 5:
       return inertial_number();
     case 6:
     case 7:
     case 8:
-      return state_.rate[n - 6];
+      return memory_.state.rate[n - 6];
     case 9:
-      return static_cast<double>(state_.phase);
+      return static_cast<double>(memory_.state.phase);
     case 10:
-      return network_.unbalanced;
+      return memory_.network.unbalanced;
     case 11:
-      return 0.5 * static_cast<double>(state_.reversals);
+      return 0.5 * static_cast<double>(memory_.state.reversals);
     case 12:
     case 13:
     case 14:
-      return stress_[n - 12];
+      return memory_.stress[n - 12];
     case 15:
     case 16:
     case 17:
-      return shear_[n - 15];
+      return memory_.shear[n - 15];
     case 18:
-      return state_.peak_deviator;
+      return memory_.state.peak_deviator;
     default:
-      return state_.strain_at_peak;
+      return memory_.state.strain_at_peak;
   }
 }
 
@@ -361,68 +343,15 @@ std::string FixStressServo::signature() const {
                      arguments_.settings.deviator_low, arguments_.settings.deviator_high);
 }
 
-std::vector<double> FixStressServo::pack() const {
-  std::vector<double> values;
-  for (const Vec3& v :
-       {state_.rate, state_.bias, state_.last_stress, state_.reference_lengths, stress_, shear_})
-    values.insert(values.end(), v.data(), v.data() + 3);
-  const auto& w = static_window_;
-  for (const double value : {state_.axial_ramp,
-                             state_.axial_direction,
-                             static_cast<double>(state_.reversals),
-                             state_.peak_deviator,
-                             state_.strain_at_peak,
-                             static_cast<double>(state_.phase),
-                             w.start,
-                             w.stress_low,
-                             w.stress_high,
-                             w.coordination_low,
-                             w.coordination_high,
-                             network_.coordination,
-                             network_.bulk_stiffness,
-                             network_.unbalanced,
-                             network_.overlap,
-                             network_.grains,
-                             state_.largest_stress,
-                             is_static_ ? 1.0 : 0.0,
-                             grains_at_start_,
-                             density_,
-                             solid_volume_,
-                             diameter_})
-    values.push_back(value);
-  return values;
-}
-
-/// The inverse of pack().
-void FixStressServo::unpack(const double* values) {
-  for (Vec3* v :
-       {&state_.rate, &state_.bias, &state_.last_stress, &state_.reference_lengths, &stress_, &shear_}) {
-    *v = Vec3(values[0], values[1], values[2]);
-    values += 3;
-  }
-  state_.axial_ramp = *values++;
-  state_.axial_direction = *values++;
-  state_.reversals = static_cast<std::int64_t>(*values++);
-  state_.peak_deviator = *values++;
-  state_.strain_at_peak = *values++;
-  state_.phase = static_cast<servo::Phase>(static_cast<int>(*values++));
-  auto& w = static_window_;
-  for (double* value : {&w.start, &w.stress_low, &w.stress_high, &w.coordination_low, &w.coordination_high,
-                        &network_.coordination, &network_.bulk_stiffness, &network_.unbalanced,
-                        &network_.overlap, &network_.grains, &state_.largest_stress})
-    *value = *values++;
-  is_static_ = *values++ != 0;
-  std::copy_n(values, restored_grains_.size(), restored_grains_.begin());
-}
-
 void FixStressServo::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  suffuse::write_record(file, {kStateVersion, signature(), pack()});
+  suffuse::write_record(file, {suffuse::kServoMemoryVersion, signature(), suffuse::packed(memory_)});
 }
 
 void FixStressServo::restart(char* buffer) {
   const suffuse::RestartRecord record =
-      suffuse::read_record(buffer, kStateVersion, pack().size(), fmt::format("fix stress/servo {}", id));
+      suffuse::read_record(buffer, suffuse::kServoMemoryVersion, suffuse::packed({}).size(),
+                           fmt::format("fix stress/servo {}", id));
   if (record.text != signature()) {
     if (comm->me == 0 && screen != nullptr)
       fmt::print(screen,
@@ -430,7 +359,9 @@ void FixStressServo::restart(char* buffer) {
                  id);
     return;
   }
-  unpack(record.values.data());
-  if (state_.phase == servo::Phase::kDone) state_.phase = servo::Phase::kHolding;  // to an end further on
+  memory_ = suffuse::unpacked(record.values);
+  std::swap(memory_.grains, restored_grains_);  // taken up in init if they are the same grains
+  if (memory_.state.phase == servo::Phase::kDone)
+    memory_.state.phase = servo::Phase::kHolding;  // to an end further on
   restored_ = true;
 }

@@ -9,13 +9,11 @@ FixStyle(stress/servo, FixStressServo)
 #ifndef SUFFUSE_FIX_STRESS_SERVO_H
 #define SUFFUSE_FIX_STRESS_SERVO_H
 
-#include <array>
 #include <string>
-#include <vector>
 
 #include "fix.h"
 #include "servo_arguments.h"
-#include "servo_network.h"
+#include "servo_memory.h"
 #include "servo_progress.h"
 
 namespace LAMMPS_NS {
@@ -41,7 +39,7 @@ class FixStressServo : public Fix {
   void restart(char* buffer) override;
 
   /// On its way to its target, which it has not reached before.
-  bool approaching() const { return state_.phase == suffuse::servo::Phase::kApproaching; }
+  bool approaching() const { return memory_.state.phase == suffuse::servo::Phase::kApproaching; }
 
  private:
   void set_static_window();
@@ -49,7 +47,6 @@ class FixStressServo : public Fix {
   void measure_stress();
   void measure_network();
   void control();
-  void deform();
   void announce_stop();
   void report_progress();
   void check_sample();
@@ -60,28 +57,17 @@ class FixStressServo : public Fix {
   double inertial_number() const;
   double void_ratio() const;
   std::string signature() const;
-  std::vector<double> pack() const;
-  void unpack(const double* values);
 
   suffuse::ServoArguments arguments_;
-  suffuse::servo::State state_;
-  suffuse::servo::StaticWindow static_window_;
-  suffuse::Vec3 stress_ = suffuse::Vec3::Zero();  // normal stresses at the last control step, Pa
-  suffuse::Vec3 shear_ = suffuse::Vec3::Zero();   // xy, xz, yz
-  suffuse::ServoNetwork network_;                 // at the last sample
-  bool is_static_ = false;
+  suffuse::ServoMemory memory_;
 
   bigint interval_ = 50;         // steps between control steps now
   bigint network_every_ = 1000;  // steps between samples of the contact network
   double window_ = 0;            // s
   suffuse::ServoProgress progress_;
-  double grains_at_start_ = 0;
-  double diameter_ = 0;
-  double density_ = 0;
-  double solid_volume_ = 0;
   bigint stop_step_ = -1;  // the run ends after this step
   bool restored_ = false;
-  std::array<double, 4> restored_grains_{};  // grains, density, volume and diameter of a restart file
+  suffuse::ServoGrains restored_grains_;  // of a restart file
   bool rate_note_given_ = false;
   FixContactSampler* sampler_ = nullptr;
   class Compute* pressure_ = nullptr;

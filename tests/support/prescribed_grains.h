@@ -48,7 +48,7 @@ class PrescribedGrains final : public ParticlePort {
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
-  GrainArrays grains() override {
+  void refresh() override {
     position_.clear();
     velocity_.clear();
     spin_.clear();
@@ -70,27 +70,25 @@ class PrescribedGrains final : public ParticlePort {
               near &= image[a] > -2 * list[n].radius && image[a] < box_[a] + 2 * list[n].radius;
             if (near) add(n, image);
           }
-    GrainArrays arrays;
-    arrays.owned = static_cast<int>(list.size());
-    arrays.total = static_cast<int>(radius_.size());
-    arrays.position = position_.data();
-    arrays.velocity = velocity_.data();
-    arrays.angular_velocity = spin_.data();
-    arrays.radius = radius_.data();
-    arrays.mass = mass_.data();
-    arrays.id = id_.data();
-    return arrays;
+    arrays_.owned = static_cast<int>(list.size());
+    arrays_.total = static_cast<int>(radius_.size());
+    arrays_.position = position_.data();
+    arrays_.velocity = velocity_.data();
+    arrays_.angular_velocity = spin_.data();
+    arrays_.radius = radius_.data();
+    arrays_.mass = mass_.data();
+    arrays_.id = id_.data();
   }
+  GrainArrays grains() const override { return arrays_; }
 
   /// Every rank owns all grains here, so sums go to all.
-  void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) override {
-    for (std::vector<double>* values : {&force, &torque}) {
-      std::vector<double> mine(3 * list.size(), 0);
-      for (std::size_t n = 0; n < owner_.size(); ++n)
-        for (std::size_t a = 0; a < 3; ++a) mine[3 * owner_[n] + a] += (*values)[3 * n + a];
-      MPI_Allreduce(mine.data(), values->data(), static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM,
-                    communicator_);
-    }
+  void sum_over_copies(std::vector<GrainSums>& sums) override {
+    constexpr std::size_t each = sizeof(GrainSums) / sizeof(double);
+    std::vector<double> mine(each * list.size(), 0);
+    auto* const all = reinterpret_cast<double*>(sums.data());
+    for (std::size_t n = 0; n < owner_.size(); ++n)
+      for (std::size_t v = 0; v < each; ++v) mine[each * owner_[n] + v] += all[each * n + v];
+    MPI_Allreduce(mine.data(), all, static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, communicator_);
   }
 
   GrainMemory memory() override { return {load_.data(), records_.data()}; }
@@ -148,6 +146,7 @@ class PrescribedGrains final : public ParticlePort {
   int last_id_ = 0;
   std::vector<double> position_, velocity_, spin_, radius_, mass_, load_;
   std::vector<GrainRecord> records_;
+  GrainArrays arrays_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;
 

@@ -1,6 +1,7 @@
 // What runs report: means over planes, and the grains' file.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "prescribed_grains.h"
 #include "suffuse/common/hdf5_file.h"
@@ -51,8 +52,7 @@ TEST_CASE("Planes know the flux, the solids' share of it, and the pressure betwe
   simulation.fluid().set_equilibrium([&](const lbm::Index3& cell) {
     return lbm::FluidPoint{1 - slope * (cell[2] - 9.5), units.velocity_to_lattice(velocity)};
   });
-  simulation.map();
-  const PlaneSums planes = plane_sums(simulation, 2);
+  const PlaneSums planes = plane_sums(simulation.map(), 2);
   const double solid = sphere_volume(5) / std::pow(kCells, 3);
   CHECK(planes.porosity(0, kCells) == Approx(1 - solid).epsilon(1e-3));  // the fraction's own error
   // Everything moves alike: fluid and grain together at the velocity, the fluid's share by the porosity.
@@ -66,6 +66,10 @@ TEST_CASE("Planes know the flux, the solids' share of it, and the pressure betwe
   CHECK(hydraulic_gradient(planes, 2 * kSpacing, 17 * kSpacing, 50, 9810) ==
         Approx((-pascal_a_cell / kSpacing + 50) / 9810).epsilon(1e-9));
   CHECK(planes.stored_mass == Approx(0).margin(1e-12 * planes.fluid_mass));
+
+  const MappedScene before = simulation.map();
+  simulation.step();
+  CHECK_THROWS_AS(plane_sums(before, 2), std::logic_error);
 }
 
 TEST_CASE("Pressure spreads through Appendix C's bed as its two-way account says") {

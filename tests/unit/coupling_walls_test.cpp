@@ -44,7 +44,7 @@ TEST_CASE("what lies behind a wall is neither pore nor grain") {
   CHECK(scene.simulation->overlap() == 0);
   CHECK(scene.simulation->grains_behind_walls() == 0);
 
-  const PlaneSums planes = plane_sums(*scene.simulation, 2);
+  const PlaneSums planes = plane_sums(scene.simulation->map(), 2);
   CHECK(planes.first_with_room() == 3);
   CHECK(planes.end_of_room() == 12);
   CHECK(planes.room[2] == 0);
@@ -70,7 +70,7 @@ TEST_CASE("a cylinder's discharge and superficial velocity are those of its insi
     return lbm::FluidPoint{1, Vec3(0, 0, 0.01)};
   });
   scene.simulation->map();
-  const PlaneSums planes = plane_sums(*scene.simulation, 2);
+  const PlaneSums planes = plane_sums(scene.simulation->map(), 2);
   CHECK(planes.room[0] * 196 == Approx(std::numbers::pi * 5.3 * 5.3).epsilon(0.03));  // whole cells
   CHECK(planes.superficial_velocity()[2] == Approx(0.01).epsilon(1e-9));
   CHECK(planes.flux[0][2] == Approx(0.01 * planes.room[0]).epsilon(1e-9));
@@ -117,5 +117,5 @@ TEST_CASE("a grain where there is no water is found") {
   add_walls(scene, {}, {6, 6, 9});  // the wall is gone
   scene.simulation->map();
   CHECK(scene.simulation->grains_behind_walls() == 0);
-  CHECK(plane_sums(*scene.simulation, 2).room[0] == 1);
+  CHECK(plane_sums(scene.simulation->map(), 2).room[0] == 1);
 }

@@ -131,7 +131,7 @@ TEST_CASE("The pressure drop of a bed is Ergun's within 1 %") {
     const auto spheres = array(scene, 2, 0.5);
     Run run(scene, spheres);
     run.steps(30);
-    const PlaneSums planes = plane_sums(run.simulation, 2);
+    const PlaneSums planes = plane_sums(run.simulation.map(), 2);
     const double drop = (planes.pressure_at(2e-3) - planes.pressure_at(6e-3)) / 4e-3;
     CHECK(drop == Approx(ergun(0.5, 2 * spheres[0].radius, speed, kViscosity)).epsilon(0.01));
     CHECK(planes.superficial_velocity()[2] == Approx(speed).epsilon(1e-9));
@@ -163,7 +163,7 @@ TEST_CASE("A random packing of any cell size has Ergun's pressure drop within 2 
     }
     Run run(scene, grains);
     run.steps(60);
-    const double speed = plane_sums(run.simulation, 2).superficial_velocity()[2];
+    const double speed = plane_sums(run.simulation.map(), 2).superficial_velocity()[2];
     CHECK(ergun(phi, 2 * grains[0].radius, speed, kViscosity) == Approx(100).epsilon(0.02));
     CHECK(run.force()[2] == Approx(100 * 8e-9).epsilon(1e-6));
   }
@@ -204,7 +204,7 @@ TEST_CASE("Porosity and volume flux are conserved wherever the grains are") {
   run.steps(3);
   double volume = 0;
   for (const auto& g : grains) volume += sphere_volume(g.radius);
-  const PlaneSums planes = plane_sums(run.simulation, 2);
+  const PlaneSums planes = plane_sums(run.simulation.map(), 2);
   CHECK(1 - planes.porosity(0, 6) == Approx(volume / (120e-9)).epsilon(1e-10));
   // Water and grains together pass every plane between the grains' ends.
   for (std::size_t plane = 0; plane < 6; ++plane) CHECK(planes.flux[plane][2] == Approx(0.01).epsilon(1e-9));
@@ -288,7 +288,7 @@ TEST_CASE("A lone sphere in a periodic box has Hasimoto's drag wherever it lies 
       grain.position = scene.spacing * Vec3(4 + place, 4 + place, 4 + 0.7 * place);
       grain.radius = 0.5 * scene.spacing / diameters;
       Run run(scene, {grain});
-      const auto flow = [&] { return plane_sums(run.simulation, 2).superficial_velocity()[2]; };
+      const auto flow = [&] { return plane_sums(run.simulation.map(), 2).superficial_velocity()[2]; };
       run.steps(12);  // seven times as long as momentum needs to spread through the box
       const double before = flow();
       run.steps(1);
@@ -317,7 +317,7 @@ TEST_CASE("A suspension expands as Richardson and Zaki say") {
     scene.pressure_gradient = Vec3(0, 0, 1650 * 9.81 * phi);
     Run run(scene, spheres);
     run.steps(30);
-    const double speed = plane_sums(run.simulation, 2).superficial_velocity()[2];
+    const double speed = plane_sums(run.simulation.map(), 2).superficial_velocity()[2];
     // Dallavalle's drag lies 4 % below Stokes'.
     CHECK(speed / terminal == Approx(std::pow(1 - phi, 4.65) / 0.96).epsilon(0.05));
   }

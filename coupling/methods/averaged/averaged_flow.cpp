@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "averaged/exact_sums.h"
+#include "averaged/grain_drag.h"
 #include "averaged/grain_shares.h"
+#include "averaged/momentum_terms.h"
 #include "averaged/pressure_equation.h"
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/hydrodynamic_load.h"
@@ -23,45 +25,6 @@ constexpr double kSafety = 0.8;
 std::array<bool, 3> periodic_axes(const WaterFaces& faces) {
   return {faces[0].kind == lbm::FaceKind::periodic, faces[2].kind == lbm::FaceKind::periodic,
           faces[4].kind == lbm::FaceKind::periodic};
-}
-
-/// How much of its own share a grain finds in the solid fraction around it: all of it in a dilute cloud,
-/// nearly nothing in a packing, whose other grains keep away as far as it reaches. Compressibility of hard
-/// spheres after Carnahan and Starling (docs key: carnahanstarling1969).
-double own_share(double phi) {
-  const double e = 1 - std::clamp(phi, 0., 0.7), p = std::clamp(phi, 0., 0.7);
-  return e * e * e * e / (1 + 4 * p + 4 * p * p - 4 * p * p * p + p * p * p * p);
-}
-
-/// A grain that pushes the water feels its own push in the mean velocity of the cells around it, as if spread
-/// over a sphere of this radius, in cells: z has to make up for it. In creeping flow u_self = F/(6 pi mu a).
-/// The radius is that for which a sphere in a periodic box has Hasimoto's drag (docs key: hasimoto1959), the
-/// decrease with the Reynolds number of the cell that for which lone spheres settle at the standard velocity.
-/// Other grains screen the push, as Brinkman's medium does that of a sphere of this radius.
-constexpr double kOwnPushRadius = 0.886, kOwnPushDecay = 0.33;
-
-/// z of a grain from `drag`, that of the closure; `share` of own_share, `resistance` of the grains in a
-/// volume, kg/(m^3 s).
-double drag_of_mean_velocity(double drag, double share, double mu, double spacing, double cell_reynolds,
-                             double resistance) {
-  const double radius = kOwnPushRadius * spacing, screens = radius * std::sqrt(resistance / mu);
-  const double push = share * drag /
-                      (6 * std::numbers::pi * mu * radius * (1 + kOwnPushDecay * cell_reynolds) *
-                       (1 + screens + screens * screens / 9));
-  constexpr double most = 0.5;
-  return drag / (1 - std::min(push, most));
-}
-
-/// Loads are constant over a step and answer a change of a grain's velocity in the next. Water that cannot
-/// but stream back past the grains makes their drag 1/e^2 times as large, and has the inertia rho V phi/e.
-/// With shares b = drag x step and c of that inertia of the grain's own, the motion is stable for b + 2 c <
-/// 2; what is added here leaves 1.4. It is added to the inertia alone: weight, drag at rest and terminal
-/// velocities stay, and a grain that would follow the water within a step does so within some.
-double inertia_for_step(const PlacedGrain& grain, double e, const AveragedFlowSetup& setup) {
-  constexpr double leave = 1.4;
-  const double drag = grain.drag / (e * e) * setup.time_step;
-  const double water = setup.density * grain.volume * (1 - e) / e;
-  return std::max(0., (drag + 2 * water) / leave - grain.mass);
 }
 
 class AveragedFlow final : public WaterMethod {
@@ -110,9 +73,6 @@ class AveragedFlow final : public WaterMethod {
   void deposit_drag();
   int substeps() const;
   void advance(double time_step);
-  double beyond(std::size_t axis, const Index3& at, std::size_t along, int direction, double here) const;
-  double stress(std::size_t axis, const Index3& at, std::size_t n) const;
-  double inertia(std::size_t axis, const Index3& at, std::size_t n) const;
   void hand_over();
   template <class Values>
   double at_grain(const PlacedGrain& grain, std::size_t axis, const Values& values) const;
@@ -301,60 +261,6 @@ void AveragedFlow::deposit_drag() {
   }
 }
 
-/// Velocity along `axis` one cell further along `along`; walls and the box's other sides where they are.
-double AveragedFlow::beyond(std::size_t axis, const Index3& at, std::size_t along, int direction,
-                            double here) const {
-  Index3 next = at;
-  next[along] += direction;
-  const int extent = grid_.extent(axis, along);
-  if (grid_.periodic(along)) next[along] = (next[along] + extent) % extent;
-  if (next[along] >= 0 && next[along] < extent) return velocity_[axis][grid_.face(axis, next)];
-  if (along == axis) return here;
-  const WaterFace& face = box_face(setup_.faces, along, direction);
-  const double wall = face.velocity[static_cast<Eigen::Index>(axis)];
-  if (face.kind == lbm::FaceKind::no_slip) return -here;
-  return face.kind == lbm::FaceKind::velocity ? 2 * wall - here : here;
-}
-
-/// G + mu laplace(u)
-double AveragedFlow::stress(std::size_t axis, const Index3& at, std::size_t n) const {
-  const double here = velocity_[axis][n];
-  double sum = 0;
-  for (std::size_t along = 0; along < 3; ++along)
-    for (const int direction : {-1, 1}) sum += beyond(axis, at, along, direction, here) - here;
-  return driving_[static_cast<Eigen::Index>(axis)] + mu_ * sum / (setup_.spacing * setup_.spacing);
-}
-
-/// div(q u) around a face, upwind.
-double AveragedFlow::inertia(std::size_t axis, const Index3& at, std::size_t n) const {
-  const double here = velocity_[axis][n];
-  const int side = grid_.side(axis, at);
-  double out = 0;
-  for (std::size_t along = 0; along < 3; ++along)
-    for (const int direction : {-1, 1}) {
-      double q;
-      if (along == axis && side == direction) {
-        q = flux_[axis][n];
-      } else if (along == axis) {
-        Index3 next = at;
-        const int extent = grid_.extent(axis, axis);
-        next[axis] += direction;
-        if (grid_.periodic(axis)) next[axis] = (next[axis] + extent) % extent;
-        q = 0.5 * (flux_[axis][n] + flux_[axis][grid_.face(axis, next)]);
-      } else {
-        const auto [low, high] = grid_.cells_beside(axis, at);
-        const std::size_t which = direction > 0 ? 1 : 0;
-        q = 0.5 * (flux_[along][grid_.face(along, grid_.faces_of(along, low)[which])] +
-                   flux_[along][grid_.face(along, grid_.faces_of(along, high)[which])]);
-      }
-      const double leaving = direction * q;
-      const double carried = leaving > 0 ? here : beyond(axis, at, along, direction, here);
-      const double width = along == axis && side != 0 ? 0.5 * setup_.spacing : setup_.spacing;
-      out += leaving * carried / width;
-    }
-  return out;
-}
-
 int AveragedFlow::substeps() const {
   double rate = 6 * setup_.viscosity / (setup_.spacing * setup_.spacing);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -368,6 +274,7 @@ int AveragedFlow::substeps() const {
 
 void AveragedFlow::advance(double time_step) {
   const double rho = setup_.density;
+  const MomentumTerms terms{grid_, setup_.faces, setup_.spacing, mu_, velocity_, flux_};
   FaceValues next = flux_;
   for (std::size_t axis = 0; axis < 3; ++axis)
     grid_.for_each_face(axis, [&](const Index3& at, std::size_t n) {
@@ -379,8 +286,8 @@ void AveragedFlow::advance(double time_step) {
         conductance_[axis][n] = 0;
         return;
       }
-      stress_[axis][n] = stress(axis, at, n);
-      const double momentum = rho * (flux_[axis][n] / time_step - inertia(axis, at, n)) +
+      stress_[axis][n] = driving_[static_cast<Eigen::Index>(axis)] + terms.viscous(axis, at, n);
+      const double momentum = rho * (flux_[axis][n] / time_step - terms.inertia(axis, at, n)) +
                               e * stress_[axis][n] + drag_velocity_[axis][n];
       const double resistance = rho * e / time_step + drag_[axis][n];
       next[axis][n] = e * momentum / resistance;

@@ -18,18 +18,6 @@ struct CoupledTimes {
   double mapping = 0, fluid = 0, exchange = 0, grains = 0, output = 0;
 };
 
-/// Grains as they were read last, to the last digit: the quick answer for those at rest.
-class SeenGrains {
- public:
-  bool same(const GrainArrays& grains) const;
-  void keep(const GrainArrays& grains);
-
- private:
-  std::vector<double> positions_, velocities_, spins_, radii_;
-  std::vector<int> ids_;
-  bool has_seen_ = false;  ///< nothing seen is not the same as no grains
-};
-
 /// By which a simulation with these settings gives grains inertia of the fluid.
 VirtualMassRule virtual_mass_rule(const CoupledSettings& settings, const lbm::Units& units);
 
@@ -44,6 +32,22 @@ struct MomentumLedger {
   Vec3 grains = Vec3::Zero();  ///< what this rank's grains took over
   double grains_magnitude = 0;
   long steps_unknown = 0;
+};
+
+class CoupledSimulation;
+
+/// A simulation whose cells are covered as its grains lie: what looks at covered cells takes one of these,
+/// and CoupledSimulation::map gives it. Good until the simulation's next step.
+class MappedScene {
+ public:
+  /// std::logic_error if it has made a step since.
+  const CoupledSimulation& simulation() const;
+
+ private:
+  friend class CoupledSimulation;
+  explicit MappedScene(const CoupledSimulation& simulation);
+  const CoupledSimulation& simulation_;
+  long step_;
 };
 
 /// A box of fluid with grains in it. Every step maps the grains to cells, advances the fluid by one step,
@@ -67,10 +71,10 @@ class CoupledSimulation {
   int loads_span() const { return settings_.average_force ? 3 : 2; }
 
   /// Maps the grains as they are; `step` does so itself. For output before the first step. Collective.
-  void map();
+  MappedScene map();
 
   /// As `map`, as if no grain had been mapped before: what a simulation does that takes a saved state up.
-  void map_anew();
+  MappedScene map_anew();
 
   /// Brings the loads in the port's memory up to date where `step` left them because nothing moves the
   /// grains. The same values however often this is called if the steps before were told (`loads_asked_for`);
@@ -195,15 +199,14 @@ class CoupledSimulation {
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
   long rested_steps_ = 0;
-  long rested_at_ = kNever;   ///< step after which the water is known to be at rest
-  bool has_flowed_ = false;   ///< it is never at rest again, to the last digit
-  bool stepped_ = false;      ///< since this simulation began
-  long loads_step_ = kNever;  ///< fluid step of the loads in the port's memory
-  std::vector<LatticeSphere> spheres_;
-  bool spheres_finite_ = true;  ///< of this rank: every position, velocity and spin is a number
-  SeenGrains seen_;
+  long rested_at_ = kNever;             ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;             ///< it is never at rest again, to the last digit
+  bool stepped_ = false;                ///< since this simulation began
+  long loads_step_ = kNever;            ///< fluid step of the loads in the port's memory
+  std::vector<LatticeSphere> spheres_;  ///< as they are; mapping_ remembers how the cells have them
+  bool spheres_finite_ = true;          ///< of this rank: every position, velocity and spin is a number
   std::string acting_walls_;
-  std::vector<double> force_, torque_, lead_, spin_lead_;
+  std::vector<GrainSums> sums_;  ///< of the last loads that were formed
   MomentumLedger ledger_;
   CoupledTimes times_;
 };

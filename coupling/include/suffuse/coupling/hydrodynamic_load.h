@@ -24,7 +24,7 @@ struct Lead {
   Vec3 spin = Vec3::Zero();
 };
 
-/// The same grain at the fluid step before.
+/// The same grain when its last load was found: at the fluid step before, or earlier.
 struct GrainHistory {
   bool known = false;
   Vec3 velocity = Vec3::Zero();
@@ -35,7 +35,7 @@ struct GrainHistory {
 
 struct LoadRule {
   double fluid_density = 1000;          ///< kg/m^3
-  double time_step = 0;                 ///< of the fluid, s
+  double time_passed = 0;               ///< since the loads that GrainHistory holds, s: a fluid step or more
   double spacing = 0;                   ///< of its cells, m
   Vec3 buoyant_gravity = Vec3::Zero();  ///< m/s^2; zero without buoyancy
   bool average = false;                 ///< mean load of this and the last fluid step
@@ -50,8 +50,8 @@ using micromechanics::sphere_volume;
 ///   lead).
 ///
 /// The exchange also accelerates the fluid that the grain's cells hold, whose momentum is the bracket; its
-/// change over the step gives that back (docs key: kempefrohlich2012). What is left is what has come in
-/// through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
+/// change over the time passed gives that back (docs key: kempefrohlich2012). What is left is what has come
+/// in through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
 /// cell around it. Without history the second term is zero, and for spheres below two cells a diameter that
 /// of the torque: a cell or two hold them, whose own inertia is larger than theirs.
 Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,

@@ -27,17 +27,28 @@ struct GrainMemory {
   GrainRecord* record = nullptr;  ///< one per grain
 };
 
+/// What the cells of one sphere handed to it in a fluid step, SI; torque and spin about its centre.
+struct GrainSums {
+  double force[3]{};      ///< N
+  double torque[3]{};     ///< N m
+  double lead[3]{};       ///< Lead::momentum, kg m/s
+  double spin_lead[3]{};  ///< Lead::spin, kg m^2/s
+};
+
 /// What the coupling asks of a discrete-element code.
 class ParticlePort {
  public:
   virtual ~ParticlePort() = default;
 
-  /// Positions, velocities and copies as they are now. Collective. Valid until `advance`.
-  virtual GrainArrays grains() = 0;
+  /// Reads the grains as they are now, and tells copies how their owners move. Collective: messages.
+  virtual void refresh() = 0;
 
-  /// Adds what copies hold to their owners: force and torque have 3 values for each of `total` grains.
+  /// What the last `refresh` read. Valid until `advance`.
+  virtual GrainArrays grains() const = 0;
+
+  /// Adds what copies hold to their owners, all of it in one exchange; one entry for each of `total` grains.
   /// Collective.
-  virtual void sum_over_copies(std::vector<double>& force, std::vector<double>& torque) = 0;
+  virtual void sum_over_copies(std::vector<GrainSums>& sums) = 0;
 
   virtual GrainMemory memory() = 0;
 

@@ -47,8 +47,8 @@ struct PlaneSums {
   double pressure_at(double height) const;
 };
 
-/// One sweep over the cells; `CoupledSimulation::map` must have been called. Collective.
-PlaneSums plane_sums(const CoupledSimulation& simulation, int axis);
+/// One sweep over the cells. Collective.
+PlaneSums plane_sums(const MappedScene& scene, int axis);
 
 /// -dp/(rho_f g dz) between two heights above the low corner (m), from the fluid-only mean of the pressure in
 /// excess of the hydrostatic one (the thesis gives no formula for its local gradient), plus the part that a

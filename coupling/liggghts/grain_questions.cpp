@@ -1,4 +1,5 @@
-// What LiggghtsPort tells of LIGGGHTS's box and of its grains as a whole.
+#include "grain_questions.h"
+
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -10,20 +11,78 @@
 #include "atom.h"
 #include "comm.h"
 #include "domain.h"
+#include "fix.h"
+#include "fix_gravity.h"
+#include "force_fix.h"
 #include "lammps.h"
-#include "liggghts_port.h"
+#include "modify.h"
+#include "styles/fix_contact_sampler.h"
 #include "styles/fix_hydrodynamic_force.h"
 #include "suffuse/common/error.h"
-#include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/micromechanics/sphere.h"
 #include "timer.h"
 #include "update.h"
 
 namespace suffuse::coupling {
 
-using LAMMPS_NS::bigint;
 using LAMMPS_NS::FixHydrodynamicForce;
+using micromechanics::sphere_volume;
 
-void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {
+bool GrainQuestions::anything_moves() const {
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (lmp_->modify->fix[i]->time_integrate != 0) return true;
+  return false;
+}
+
+std::optional<Vec3> GrainQuestions::gravity_on_grains() const {
+  Vec3 sum = Vec3::Zero();
+  bool found = false;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (auto* gravity = dynamic_cast<LAMMPS_NS::FixGravity*>(lmp_->modify->fix[i])) {
+      Vec3 own;
+      gravity->get_gravity(own.data());
+      sum += own;
+      found = true;
+    }
+  return found ? std::optional(sum) : std::nullopt;
+}
+
+GrainQuestions::HeldInMotion GrainQuestions::held_in_motion() const {
+  const int group = force_fix(lmp_).groupbit;
+  int moved = 0;
+  for (int i = 0; i < lmp_->modify->nfix; ++i)
+    if (lmp_->modify->fix[i]->time_integrate != 0) moved |= lmp_->modify->fix[i]->groupbit;
+  const auto* atom = lmp_->atom;
+  double grains = 0, speed = 0;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    if ((atom->mask[i] & group) == 0 || (atom->mask[i] & moved) != 0) continue;
+    const double own = Eigen::Map<const Vec3>(atom->v[i]).norm() +
+                       atom->radius[i] * Eigen::Map<const Vec3>(atom->omega[i]).norm();
+    if (own > 0) grains += 1;
+    speed = std::max(speed, own);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &grains, 1, MPI_DOUBLE, MPI_SUM, lmp_->world);
+  MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, lmp_->world);
+  return {static_cast<std::int64_t>(grains), speed};
+}
+
+bool GrainQuestions::loads_restored() const {
+  // Grains migrate, and a rank may have had none: restored on one rank is restored on all.
+  int mine[2] = {lmp_->atom->nlocal > 0 ? 1 : 0, force_fix(lmp_).restored() ? 1 : 0};
+  MPI_Allreduce(MPI_IN_PLACE, mine, 2, MPI_INT, MPI_MAX, lmp_->world);
+  return mine[0] == 0 || mine[1] != 0;
+}
+
+const micromechanics::Packing& GrainQuestions::contacts() const {
+  return LAMMPS_NS::FixContactSampler::of(lmp_).packing_with_friction(force_fix(lmp_).groupbit);
+}
+
+std::array<bool, 3> GrainQuestions::periodic() const {
+  const int* faces = lmp_->domain->periodicity;
+  return {faces[0] != 0, faces[1] != 0, faces[2] != 0};
+}
+
+void GrainQuestions::check_box(const lbm::FaceConditions& faces) const {
   const auto* domain = lmp_->domain;
   if (domain->triclinic != 0)
     throw_user_error({"lbm run", "box", "triclinic", "be orthogonal", "use a `region ... block`"});
@@ -43,28 +102,20 @@ void LiggghtsPort::check_box(const lbm::FaceConditions& faces) const {
   }
 }
 
-void LiggghtsPort::check_unchanged() const {
-  const auto* domain = lmp_->domain;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (box_[a] != domain->boxlo[a] || box_[a + 3] != domain->boxhi[a])
-      throw_user_error({"lbm run", "box", "deforming", "keep its size while there is a fluid",
-                        "unfix the servo or `fix deform` before, or end the fluid with `lbm clear`"});
-}
-
-Vec3 LiggghtsPort::box_low() const {
+Vec3 GrainQuestions::box_low() const {
   return Eigen::Map<const Vec3>(lmp_->domain->boxlo);
 }
 
-Vec3 LiggghtsPort::box_high() const {
+Vec3 GrainQuestions::box_high() const {
   return Eigen::Map<const Vec3>(lmp_->domain->boxhi);
 }
 
-Vec3 LiggghtsPort::box_size() const {
+Vec3 GrainQuestions::box_size() const {
   return Eigen::Map<const Vec3>(lmp_->domain->prd);
 }
 
-lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
-                                               const lbm::Index3& cells) const {
+lbm::Decomposition GrainQuestions::decomposition(const Vec3& low, double spacing,
+                                                 const lbm::Index3& cells) const {
   const auto* comm = lmp_->comm;
   const double* splits[3] = {comm->xsplit, comm->ysplit, comm->zsplit};
   std::array<std::vector<int>, 3> cuts;
@@ -83,7 +134,8 @@ lbm::Decomposition LiggghtsPort::decomposition(const Vec3& low, double spacing,
   });
 }
 
-LiggghtsPort::Summary LiggghtsPort::summary() const {
+GrainQuestions::Summary GrainQuestions::summary() const {
+  FixHydrodynamicForce& fix = force_fix(lmp_);
   const auto* atom = lmp_->atom;
   struct {
     double grains, radius_squared, volume, energy, load[3];
@@ -93,7 +145,7 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   } extremes;
   std::fill_n(&extremes.minus_radius, sizeof extremes / sizeof(double), -1e300);
   for (int i = 0; i < atom->nlocal; ++i) {
-    if ((atom->mask[i] & fix_->groupbit) == 0) continue;
+    if ((atom->mask[i] & fix.groupbit) == 0) continue;
     const double r = atom->radius[i], volume = sphere_volume(r), density = atom->rmass[i] / volume;
     sums.grains += 1;
     sums.radius_squared += r * r;
@@ -108,7 +160,7 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
     extremes.minus_density = std::max(extremes.minus_density, -density);
     extremes.density = std::max(extremes.density, density);
     for (int a = 0; a < 3; ++a) {
-      sums.load[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+      sums.load[a] += fix.load()[FixHydrodynamicForce::kLoadValues * i + a];
       extremes.high[a] = std::max(extremes.high[a], atom->x[i][a] + r);
       extremes.minus_low[a] = std::max(extremes.minus_low[a], r - atom->x[i][a]);
     }
@@ -135,28 +187,30 @@ LiggghtsPort::Summary LiggghtsPort::summary() const {
   return summary;
 }
 
-std::vector<Vec3> LiggghtsPort::centres() const {
+std::vector<Vec3> GrainQuestions::centres() const {
+  const int group = force_fix(lmp_).groupbit;
   std::vector<Vec3> centres;
   for (int i = 0; i < lmp_->atom->nlocal; ++i)
-    if ((lmp_->atom->mask[i] & fix_->groupbit) != 0)
-      centres.emplace_back(Eigen::Map<const Vec3>(lmp_->atom->x[i]));
+    if ((lmp_->atom->mask[i] & group) != 0) centres.emplace_back(Eigen::Map<const Vec3>(lmp_->atom->x[i]));
   return centres;
 }
 
-std::vector<LiggghtsPort::OwnedGrain> LiggghtsPort::owned() const {
+std::vector<GrainQuestions::OwnedGrain> GrainQuestions::owned() const {
+  const int group = force_fix(lmp_).groupbit;
   std::vector<OwnedGrain> grains;
   const auto* atom = lmp_->atom;
   for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & fix_->groupbit) != 0)
+    if ((atom->mask[i] & group) != 0)
       grains.push_back({Eigen::Map<const Vec3>(atom->x[i]), Eigen::Map<const Vec3>(atom->v[i]).norm(),
                         atom->radius[i], atom->rmass[i]});
   return grains;
 }
 
-std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& bounds) const {
+std::vector<double> GrainQuestions::grains_by_size(const std::vector<double>& bounds) const {
+  const int group = force_fix(lmp_).groupbit;
   std::vector<double> counts(bounds.size() + 1, 0);
   for (int i = 0; i < lmp_->atom->nlocal; ++i) {
-    if ((lmp_->atom->mask[i] & fix_->groupbit) == 0) continue;
+    if ((lmp_->atom->mask[i] & group) == 0) continue;
     const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * lmp_->atom->radius[i]);
     counts[static_cast<std::size_t>(above - bounds.begin())] += 1;
   }
@@ -165,12 +219,13 @@ std::vector<double> LiggghtsPort::grains_by_size(const std::vector<double>& boun
   return counts;
 }
 
-std::vector<double> LiggghtsPort::mass_by_size(const std::vector<double>& bounds, int axis,
-                                               double below) const {
+std::vector<double> GrainQuestions::mass_by_size(const std::vector<double>& bounds, int axis,
+                                                 double below) const {
+  const int group = force_fix(lmp_).groupbit;
   std::vector<double> masses(bounds.size() + 1, 0);
   const auto* atom = lmp_->atom;
   for (int i = 0; i < atom->nlocal; ++i) {
-    if ((atom->mask[i] & fix_->groupbit) == 0 || !(atom->x[i][axis] < below)) continue;
+    if ((atom->mask[i] & group) == 0 || !(atom->x[i][axis] < below)) continue;
     const double radius = atom->radius[i];
     const auto above = std::upper_bound(bounds.begin(), bounds.end(), 2 * radius);
     masses[static_cast<std::size_t>(above - bounds.begin())] += atom->density[i] * sphere_volume(radius);
@@ -180,18 +235,19 @@ std::vector<double> LiggghtsPort::mass_by_size(const std::vector<double>& bounds
   return masses;
 }
 
-Vec3 LiggghtsPort::mean_load(int groupbit) const {
+Vec3 GrainQuestions::mean_load(int groupbit) const {
+  FixHydrodynamicForce& fix = force_fix(lmp_);
   double sums[4] = {0, 0, 0, 0};
   for (int i = 0; i < lmp_->atom->nlocal; ++i) {
-    if ((lmp_->atom->mask[i] & groupbit & fix_->groupbit) == 0) continue;
-    for (int a = 0; a < 3; ++a) sums[a] += fix_->load()[FixHydrodynamicForce::kLoadValues * i + a];
+    if ((lmp_->atom->mask[i] & groupbit & fix.groupbit) == 0) continue;
+    for (int a = 0; a < 3; ++a) sums[a] += fix.load()[FixHydrodynamicForce::kLoadValues * i + a];
     sums[3] += 1;
   }
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, lmp_->world);
   return Vec3(sums[0], sums[1], sums[2]) / std::max(1., sums[3]);
 }
 
-PastRun LiggghtsPort::past_run() const {
+PastRun GrainQuestions::past_run() const {
   // Verlet leaves the loop's wall time in the timer, and `run` the number of steps.
   const double steps = lmp_->update->nsteps;
   double seconds = lmp_->timer->array[TIME_LOOP];

@@ -1,0 +1,163 @@
+// What a step of a coupled simulation gives to the grains: the sums over their cells, brought together from
+// all ranks, made loads, and written into the port's memory.
+#include <mpi.h>
+
+#include <algorithm>
+
+#include "grain_arithmetic.h"
+#include "suffuse/coupling/coupled_simulation.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
+#include "suffuse/lbm/health.h"
+
+namespace suffuse::coupling {
+
+namespace {
+
+/// What the next load refers to; `follows`: the record is of this fluid.
+GrainHistory history_of(const GrainRecord& record, bool follows) {
+  return {follows && record.known != 0,
+          vector_at(record.velocity, 0),
+          vector_at(record.angular_velocity, 0),
+          {vector_at(record.surface_force, 0), vector_at(record.surface_torque, 0)},
+          {vector_at(record.lead, 0), vector_at(record.spin_lead, 0)}};
+}
+
+}  // namespace
+
+/// Exchange and lead of each sphere's cells on all ranks, summed at its owner, in SI.
+void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
+  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], metre = units_.spacing(),
+               second = units_.time_step();
+  sums_.assign(static_cast<std::size_t>(grains.total), {});
+  for (std::size_t n = 0; n < mapping_.loads().size(); ++n) {
+    const LatticeLoad& load = mapping_.loads()[n];
+    GrainSums& sums = sums_[n];
+    const double arms = share_of_arms(grains.radius[n] / metre);
+    for (std::size_t a = 0; a < 3; ++a) {
+      sums.force[a] = load.force[a] * newton;
+      sums.torque[a] = load.torque[a] * newton * metre * arms;
+      sums.lead[a] = load.lead[a] * newton * second;
+      sums.spin_lead[a] = load.spin_lead[a] * newton * metre * second * arms;
+    }
+  }
+  grains_.sum_over_copies(sums_);
+}
+
+void CoupledSimulation::hand_over(const GrainArrays& grains) {
+  LoadRule rule;
+  rule.fluid_density = units_.density();
+  // The memory may hold loads of another fluid: those of no step of this one are not referred to.
+  const bool follows = loads_step_ != kNever;
+  const long passed = follows ? std::max(1L, fluid_.steps() - loads_step_) : 1;
+  rule.time_passed = static_cast<double>(passed) * units_.time_step();
+  rule.spacing = units_.spacing();
+  if (effects_.buoyancy != Switch::off) rule.buoyant_gravity = settings_.gravity;
+  rule.average = settings_.average_force;
+  rule.rotation = effects_.rotation != Switch::off;
+  const GrainMemory memory = grains_.memory();
+  for (int n = 0; n < grains.owned; ++n) {
+    const GrainSums& sums = sums_[static_cast<std::size_t>(n)];
+    const Load exchange{vector_at(sums.force, 0), vector_at(sums.torque, 0)};
+    const Lead lead{vector_at(sums.lead, 0), vector_at(sums.spin_lead, 0)};
+    const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
+                         vector_at(grains.angular_velocity, n)};
+    GrainRecord& record = memory.record[n];
+    const GrainHistory before = history_of(record, follows);
+    const Load surface = surface_load(exchange, lead, now, before, rule);
+    const Load load = hydrodynamic_load(surface, now, before, rule);
+    Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
+    Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
+    if (before.known) {
+      const auto follow = [&](double* mean, const Vec3& change) {
+        const Vec3 past = vector_at(mean, 0);
+        keep(mean, past + kPredictionRate * (change / rule.time_passed - past));
+      };
+      follow(record.acceleration, now.velocity - before.velocity);
+      follow(record.angular_acceleration, now.angular_velocity - before.angular_velocity);
+    }
+    const VirtualInertia added = virtual_inertia(virtual_rule_, now.radius, grains.mass[n]);
+    record.virtual_mass = added.mass;
+    record.virtual_moment = added.moment;
+    keep(record.velocity, now.velocity);
+    keep(record.angular_velocity, now.angular_velocity);
+    keep(record.surface_force, surface.force);
+    keep(record.surface_torque, surface.torque);
+    keep(record.lead, lead.momentum);
+    keep(record.spin_lead, lead.spin);
+    record.known = 1;
+  }
+  loads_step_ = fluid_.steps();
+}
+
+/// Before a discrete-element code is given what it would choke on.
+void CoupledSimulation::require_finite(const GrainArrays& grains) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(grains.owned); ++n)
+    for (std::size_t a = 0; a < 3; ++a) sum += 0 * sums_[n].force[a] + 0 * sums_[n].torque[a];
+  enum { fine, water, grain };
+  int broken = sum == 0 ? fine : water;
+  if (!spheres_finite_) broken = grain;
+  MPI_Allreduce(MPI_IN_PLACE, &broken, 1, MPI_INT, MPI_MAX, fluid_.decomposition().communicator());
+  if (broken == fine) return;
+  if (broken == grain) throw_lost_grain("lbm run", time_si());
+  lbm::FluidExtremes extremes;
+  extremes.finite = false;
+  lbm::require_stable(extremes, units_, time_si(), 1, "lbm run");
+}
+
+void CoupledSimulation::refresh_loads() {
+  if (method_) return;  // every step hands them over
+  if (loads_step_ == fluid_.steps() || !stepped_) return;
+  (void)map();  // the sums are in the order of the grains as they are now
+  {
+    const Stopwatch watch(times_.exchange);
+    mapping_.sum(units_.relaxation_time());
+  }
+  hand_loads_over();
+}
+
+/// What the last step gave to the grains that this rank owns, summed over all ranks that hold cells of them.
+void CoupledSimulation::keep_ledger(int owned) {
+  const double newton = units_.force_to_si(Vec3(1, 0, 0))[0];
+  for (int n = 0; n < owned; ++n) {
+    const Vec3 impulse = vector_at(sums_[static_cast<std::size_t>(n)].force, 0) / newton;
+    ledger_.grains += impulse;
+    ledger_.grains_magnitude += impulse.norm();
+  }
+}
+
+/// From the sums of `mapping_`; this rank's grains.
+int CoupledSimulation::hand_loads_over() {
+  const GrainArrays grains = grains_.grains();
+  const Stopwatch watch(times_.exchange);
+  collect_exchange(grains);
+  require_finite(grains);
+  hand_over(grains);
+  return grains.owned;
+}
+
+/// Force of the method and the weight of the displaced water; no torque.
+void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
+  const GrainMemory memory = grains_.memory();
+  const Vec3 gravity = effects_.buoyancy == Switch::off ? Vec3(Vec3::Zero()) : settings_.gravity;
+  for (int n = 0; n < grains.owned; ++n) {
+    const auto grain = static_cast<std::size_t>(n);
+    const double displaced = units_.density() * sphere_volume(grains.radius[n]);
+    const bool wet = method_->is_wet(grain);
+    Eigen::Map<Vec3> force(memory.load + 6 * n), torque(memory.load + 6 * n + 3);
+    force = method_->forces()[grain];
+    if (wet) force -= displaced * gravity;
+    torque.setZero();
+    GrainRecord& record = memory.record[n];
+    // Added inertia resists: an acceleration on the other side would lag and feed the contacts' vibrations.
+    for (int a = 0; a < 3; ++a) record.acceleration[a] = record.angular_acceleration[a] = 0;
+    const double added =
+        settings_.virtual_mass ? *settings_.virtual_mass * displaced : method_->virtual_masses()[grain];
+    record.virtual_mass = wet ? added : 0;
+    record.virtual_moment = 0;
+    record.known = 1;
+  }
+  loads_step_ = fluid_.steps();
+}
+
+}  // namespace suffuse::coupling
