@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "run_effects.h"
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -29,6 +29,7 @@ class LbmCommand {
   void line(int narg, char** arg);
 
  private:
+  void clear();
   void restart(ArgumentReader& reader);
   void accuracy(ArgumentReader& reader);
   void plan(ArgumentReader& reader);
@@ -37,7 +38,8 @@ class LbmCommand {
   void require_lattice(const std::string& who) const;
   void require_box(const std::string& who) const;
   void refuse_double_buoyancy() const;
-  CoupledSettings settings_now() const;
+  /// settings_now; a UserError where its cells are too small for the grains.
+  CoupledSettings settings_for_grains() const;
   lbm::Decomposition decomposition(Vec3& low);
   void build();
   void read_state();
@@ -45,7 +47,7 @@ class LbmCommand {
   int choose_substeps();
 
   LAMMPS_NS::LAMMPS* lmp_;
-  LbmSettings settings_;
+  LbmRequest request_;
   std::unique_ptr<LiggghtsPort> port_;
   std::unique_ptr<CoupledSimulation> simulation_;
   RunEffects effects_;

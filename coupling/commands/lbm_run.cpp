@@ -34,7 +34,7 @@ constexpr double kSameGravity = 2e-3;
 
 }  // namespace
 
-LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
+LbmRun::LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, LiggghtsPort& port,
                CoupledSimulation& simulation, RunOutput& output, RunEffects& effects)
     : lmp_(lmp),
       settings_(settings),

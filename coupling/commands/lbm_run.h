@@ -7,7 +7,7 @@
 
 #include "../liggghts/liggghts_port.h"
 #include "effect_report.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "run_effects.h"
 #include "run_guards.h"
 #include "run_output.h"
@@ -32,7 +32,7 @@ class LbmRun {
   /// time.
   static constexpr long kCheckEvery = 250;
 
-  LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, LiggghtsPort& port,
+  LbmRun(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, LiggghtsPort& port,
          CoupledSimulation& simulation, RunOutput& output, RunEffects& effects);
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
@@ -60,7 +60,7 @@ class LbmRun {
   std::optional<std::string> weight_note() const;
 
   LAMMPS_NS::LAMMPS* lmp_;
-  const LbmSettings& settings_;
+  const LbmRequest& settings_;
   LiggghtsPort& port_;
   CoupledSimulation& simulation_;
   RunOutput& output_;

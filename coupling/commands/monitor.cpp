@@ -6,9 +6,8 @@
 #include <set>
 
 #include "lammps.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "modify.h"
-#include "styles/style_support.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::coupling {

@@ -100,7 +100,7 @@ void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
          "read_restart the grains of the same state: FILE.grains with FILE, FILE.1/grains with FILE.1"});
 }
 
-void RunOutput::prepare(const LbmSettings& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
+void RunOutput::prepare(const LbmRequest& settings, LAMMPS_NS::LAMMPS* lmp, LiggghtsPort& port,
                         CoupledSimulation& simulation, std::optional<double> continue_after) {
   std::erase_if(monitors_, [&](const auto& open) {
     return std::none_of(settings.monitors.begin(), settings.monitors.end(),
