@@ -30,15 +30,18 @@ struct Option {
   std::string_view name, shorter;
   int words;
 };
-constexpr Option kOptions[] = {
-    {"-in", "-i", 1},           {"-var", "-v", -1},        {"-log", "-l", 1},
-    {"-screen", "-sc", 1},      {"-echo", "-e", 1},        {"-suffix", "-sf", 1},
-    {"-partition", "-p", -1},   {"-plog", "-pl", 1},       {"-pscreen", "-ps", 1},
-    {"-uid", "-uid", 1},        {"-thermo", "-thermo", 1}, {"-seedtolerant", "-st", 0},
-    {"-wb", "-wb", 0},          {"-cuda", "-c", 1},        {"-domain", "-domain", 1},
-    {"-reorder", "-ro", 2},     {"-restart", "-r", 2},     {"-restart_offset", "-roff", 3},
-    {"-nocite", "-nc", 0},      {"--help", "-h", 0},       {"--version", "-help", 0},
-    {"--styles", "--styles", 0}};
+constexpr Option kOptions[] = {{"-in", "-i", 1},          {"-var", "-v", -1},
+                               {"-log", "-l", 1},         {"-screen", "-sc", 1},
+                               {"-echo", "-e", 1},        {"-suffix", "-sf", 1},
+                               {"-partition", "-p", -1},  {"-plog", "-pl", 1},
+                               {"-pscreen", "-ps", 1},    {"-uid", "-uid", 1},
+                               {"-thermo", "-thermo", 1}, {"-seedtolerant", "-st", 0},
+                               {"-wb", "-wb", 0},         {"-cuda", "-c", 1},
+                               {"-domain", "-domain", 1}, {"-reorder", "-ro", 2},
+                               {"-restart", "-r", 2},     {"-restart_offset", "-roff", 3},
+                               {"-nocite", "-nc", 0},     {"--help", "-h", 0},
+                               {"--version", "-help", 0}, {"--styles", "--styles", 0},
+                               {"--words", "--words", 0}};
 
 struct Style {
   std::string kind, name, page, does;

@@ -8,6 +8,14 @@ namespace suffuse {
 /// (docs/reference/styles.tsv), and where the pages are.
 std::string styles_text();
 
+/// What `suffuse --help lbm` prints: how each line is written, and after `lbm LINE` its words. A UserError
+/// for a line that there is not.
+std::string lbm_help(const std::string& line);
+
+/// What `suffuse --words` prints: a table, tab-separated, of all words of `lbm` (docs/reference/lbm.md is
+/// made of it).
+std::string words_text();
+
 /// A UserError for words that LIGGGHTS does not read: an option that it has not, or a script without -in.
 void require_known_options(int argc, char** argv);
 

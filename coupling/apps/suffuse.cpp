@@ -49,8 +49,10 @@ LIGGGHTS options pass through, among them:
 
 Our own:
   --help              this text
+  --help lbm [LINE]   the lines of `lbm`, or one of them with its words
   --version           the version
   --styles            the fixes, computes and commands that suffuse adds, each with its page
+  --words             all words of `lbm`, as a table for programs
 )";
 
 bool given(int argc, char** argv, const char* option) {
@@ -59,8 +61,24 @@ bool given(int argc, char** argv, const char* option) {
   return false;
 }
 
+/// The words behind --help; false without the option.
+bool asks_for_help(int argc, char** argv, std::vector<std::string>& about) {
+  for (int i = 1; i < argc; ++i)
+    for (const char* option : {"--help", "-help", "-h"})
+      if (std::strcmp(argv[i], option) == 0) {
+        about.assign(argv + i + 1, argv + argc);
+        return true;
+      }
+  return false;
+}
+
 bool answered_without_a_script(int argc, char** argv) {
-  if (given(argc, argv, "--help") || given(argc, argv, "-help") || given(argc, argv, "-h")) {
+  std::vector<std::string> about;
+  if (asks_for_help(argc, argv, about)) {
+    if (!about.empty() && about[0] == "lbm") {
+      std::fputs(suffuse::lbm_help(about.size() > 1 ? about[1] : "").c_str(), stdout);
+      return true;
+    }
     std::string text = kHelp;
     text.replace(text.find("{version}"), 9, SUFFUSE_VERSION);
     std::fputs(text.c_str(), stdout);
@@ -68,6 +86,10 @@ bool answered_without_a_script(int argc, char** argv) {
   }
   if (given(argc, argv, "--version")) {
     fmt::print("suffuse {}\n", SUFFUSE_VERSION);
+    return true;
+  }
+  if (given(argc, argv, "--words")) {
+    std::fputs(suffuse::words_text().c_str(), stdout);
     return true;
   }
   if (given(argc, argv, "--styles")) {
@@ -197,9 +219,14 @@ int main(int argc, char** argv) {
   int code = 0;
   const bool own_option = given(argc, argv, "--help") || given(argc, argv, "-help") ||
                           given(argc, argv, "-h") || given(argc, argv, "--version") ||
-                          given(argc, argv, "--styles");
+                          given(argc, argv, "--styles") || given(argc, argv, "--words");
   if (own_option) {
-    if (rank == 0) answered_without_a_script(argc, argv);
+    try {
+      if (rank == 0) answered_without_a_script(argc, argv);
+    } catch (const suffuse::UserError& problem) {
+      tell_the_end(fmt::format("suffuse: error: {}", problem.what()), nullptr, rank);
+      code = 1;
+    }
   } else {
     const End end = run_script(argc, argv, rank);
     code = end.code;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "lbm_words.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/cell_array.h"
 
@@ -18,84 +19,25 @@ constexpr const char* kWalls = "/walls";
 constexpr const char* kActingWalls = "/walls/acting";  ///< a text, character by character
 constexpr const char* kClosedCells = "/walls/closed_cells";
 
-/// One setting as text: ten digits tell two scripts apart, not two ways to round.
-struct Setting {
-  std::string line, name, value;
-};
-
-std::string number(double value) {
-  return fmt::format("{:.10g}", value);
-}
-
-std::string fraction_text(const SolidSettings& solids) {
-  switch (solids.fraction) {
-    case FractionMethod::exact:
-      return "exact";
-    case FractionMethod::linear:
-      return "linear";
-    case FractionMethod::subcells:
-      return fmt::format("subcells {}", solids.subcells);
-  }
-  return "";
-}
-
-std::string coefficient_text(const SolidSettings& solids) {
-  if (solids.cells.weighting != lbm::SolidWeighting::viscosity_independent) return "none";
-  return solids.automatic_coefficient ? "auto" : number(solids.cells.coefficient);
-}
-
-std::string switch_text(Switch value) {
-  if (value == Switch::automatic) return "auto";
-  return value == Switch::off ? "off" : "on";
-}
-
-std::string turbulence_text(const EffectSettings& effects) {
-  const std::string asked = switch_text(effects.turbulence);
-  return effects.turbulence == Switch::off ? asked : asked + " " + number(effects.smagorinsky);
-}
-
-std::vector<Setting> settings_of(const CoupledSimulation& simulation) {
+std::vector<KeptWord> settings_of(const CoupledSimulation& simulation) {
   const lbm::Units& units = simulation.units();
-  const CoupledSettings& asked = simulation.settings();
-  const lbm::CollisionSettings collision = asked.averaged ? lbm::CollisionSettings{} : asked.fluid.collision;
-  const SolidSettings& solids = simulation.settings().solids;
-  const EffectSettings& effects = asked.effects;
-  const bool two_times = lbm::has_magic(collision.collision_operator);
-  std::vector<Setting> settings{{"fluid", "density", number(units.density())},
-                                {"fluid", "viscosity", number(units.viscosity_si())},
-                                {"lattice", "spacing", number(units.spacing())},
-                                {"lattice", "relaxation_time", number(units.relaxation_time())},
-                                {"collision", "operator", name_of(collision.collision_operator)},
-                                {"collision", "magic", two_times ? number(collision.magic) : "none"},
-                                {"collision", "incompressible", collision.incompressible ? "yes" : "no"},
-                                {"solid", "operator", name_of(solids.cells.solid_operator)},
-                                {"solid", "weighting", name_of(solids.cells.weighting)},
-                                {"solid", "coefficient", coefficient_text(solids)},
-                                {"solid", "fraction", fraction_text(solids)},
-                                {"effect", "turbulence", turbulence_text(effects)},
-                                {"effect", "comoving", switch_text(effects.comoving)},
-                                {"effect", "lubrication", switch_text(effects.lubrication)},
-                                {"effect", "buoyancy", switch_text(effects.buoyancy)},
-                                {"effect", "rotation", switch_text(effects.rotation)}};
+  std::vector<KeptWord> settings = kept_words({units, simulation.settings()});
   for (int a = 0; a < 3; ++a)
     settings.push_back({"lattice", fmt::format("low corner along {}", "xyz"[a]),
                         fmt::format("{:.6g} cells", simulation.origin()[a] / units.spacing())});
-  if (const auto& averaged = simulation.settings().averaged) {
-    settings.push_back({"method", "averaged drag", name_of(averaged->drag)});
-    settings.push_back({"method", "averaged graded", averaged->graded ? "yes" : "no"});
-  }
   return settings;
 }
 
-std::string key(const Setting& setting) {
-  return setting.line + " " + setting.name;
+std::string key(const KeptWord& setting) {
+  const bool averaged = setting.line == "method";  // as states have been written ever since
+  return setting.line + (averaged ? " averaged " : " ") + setting.name;
 }
 
 }  // namespace
 
 void save_settings(Hdf5File& file, const CoupledSimulation& simulation) {
   file.create_group(kSettings);
-  for (const Setting& setting : settings_of(simulation))
+  for (const KeptWord& setting : settings_of(simulation))
     file.set_attribute(kSettings, key(setting), setting.value);
 }
 
@@ -107,7 +49,7 @@ bool require_same_settings(const std::string& path, const CoupledSimulation& sim
                       averaged ? "be resolved, as it was saved" : "be averaged, as it was saved",
                       "write the same `lbm method`"});
   if (!file.exists(kSettings)) return false;
-  for (const Setting& setting : settings_of(simulation)) {
+  for (const KeptWord& setting : settings_of(simulation)) {
     const std::string saved = file.text_attribute(kSettings, key(setting));
     if (saved != setting.value)
       throw_user_error(

@@ -115,7 +115,7 @@ std::vector<EffectReport::Row> EffectReport::rows(LAMMPS_NS::LAMMPS* lmp, const 
   return all;
 }
 
-std::string effect_report_file(const LbmSettings& settings) {
+std::string effect_report_file(const LbmRequest& settings) {
   std::string beside;
   if (!settings.monitors.empty())
     beside = settings.monitors.front().file;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "run_effects.h"
 #include "suffuse/coupling/coupled_simulation.h"
 
@@ -39,7 +39,7 @@ class EffectReport {
 
 /// Where the report of a scene belongs: effects.json in the folder of its first monitor or output; empty
 /// without either.
-std::string effect_report_file(const LbmSettings& settings);
+std::string effect_report_file(const LbmRequest& settings);
 
 /// Replaces the file. Collective.
 void write_effect_report(const std::string& file, const std::vector<EffectReport::Row>& rows,

@@ -32,7 +32,7 @@ struct Drive {
 };
 
 /// Drops of pressure along each axis, Pa, from faces and gradient as they are now.
-Vec3 pressure_drops(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const Vec3& size) {
+Vec3 pressure_drops(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Vec3& size) {
   Vec3 drops = settings.pressure_gradient.now(lmp).cwiseProduct(size).cwiseAbs();
   for (std::size_t a = 0; a < 3; ++a) {
     const ScriptFace &low = settings.faces[2 * a], &high = settings.faces[2 * a + 1];
@@ -42,7 +42,7 @@ Vec3 pressure_drops(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const V
   return drops;
 }
 
-double speed_of_faces(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings) {
+double speed_of_faces(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings) {
   double speed = 0;
   for (const ScriptFace& face : settings.faces)
     if (face.kind == lbm::FaceKind::velocity) speed = std::max(speed, face.velocity.now(lmp).norm());
@@ -51,9 +51,9 @@ double speed_of_faces(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings) {
 
 /// In a bed water flows as Ergun says, and grains that may move are lifted and go with it; grains apart from
 /// each other fall alone.
-Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const LiggghtsPort::Summary& grains,
+Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const LiggghtsPort::Summary& grains,
                bool grains_move, const Vec3& size) {
-  const lbm::UnitsRequest& units = settings.coupled.units;
+  const lbm::UnitsRequest& units = settings.units;
   const double gravity = settings.gravity.now(lmp).norm(), heavier = grains.largest_density / units.density;
   const bool bed = grains.packing > kBed;
   const double porosity = 1 - std::min(grains.packing, 0.7);
@@ -84,12 +84,12 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmSettings& settings, const Ligggh
 }
 
 AccuracyScene scene_of(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
-                       const LbmSettings& settings, std::string& velocity_from) {
+                       const LbmRequest& settings, std::string& velocity_from) {
   const LiggghtsPort::Summary grains = port.summary();
   AccuracyScene scene;
   scene.size = fluid_box(lmp, port, request.region).size;
-  scene.density = settings.coupled.units.density;
-  scene.viscosity = settings.coupled.units.viscosity;
+  scene.density = settings.units.density;
+  scene.viscosity = settings.units.viscosity;
   if (grains.grains == 0) return scene;
   scene.fine_diameter = fine_diameter(port, grains);
   const Drive drive = drive_of(lmp, settings, grains, port.anything_moves(), scene.size);
@@ -156,42 +156,19 @@ std::string text_of(const AccuracyChoice& choice, const AccuracyScene& scene, co
 
 }  // namespace
 
-AccuracyRequest read_accuracy(ArgumentReader& reader) {
-  AccuracyRequest request;
-  const std::string given = reader.word("accuracy, such as 3%");
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(given, &used);
-    const std::string unit = given.substr(used);
-    if ((!unit.empty() && unit != "%") || !(value > 0)) throw std::invalid_argument(given);
-    request.accuracy = unit.empty() ? value : value / 100;
-  } catch (const std::logic_error&) {
-    throw_user_error({reader.who(), "accuracy", given, "be a share such as 3% or 0.03", ""});
-  }
-  while (!reader.done()) {
-    if (reader.keyword("max_velocity"))
-      request.largest_velocity = reader.positive("max_velocity");
-    else if (reader.keyword("region"))
-      request.region = reader.word("region");
-    else
-      reader.unknown(reader.word("keyword"), "max_velocity, region");
-  }
-  return request;
-}
-
 void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
-                  LbmSettings& settings) {
+                  LbmRequest& settings) {
   std::string velocity_from;
   const AccuracyScene scene = scene_of(lmp, request, port, settings, velocity_from);
   const AccuracyChoice choice = choose_for_accuracy(request.accuracy, scene);
-  lbm::UnitsRequest& units = settings.coupled.units;
+  lbm::UnitsRequest& units = settings.units;
   units.spacing = choice.spacing;
   units.relaxation_time = choice.relaxation_time;
   units.time_step.reset();
   units.mach.reset();
   units.largest_velocity = scene.velocity;
-  settings.coupled.fluid.precision = choice.precision;
-  settings.coupled.fluid.collision.collision_operator = choice.collision;
+  settings.precision = choice.precision;
+  settings.collision.collision_operator = choice.collision;
   settings.region = request.region;
   settings.lattice_given = true;
   tell(lmp, text_of(choice, scene, request, velocity_from));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../liggghts/scene.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "run_effects.h"
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -29,13 +29,15 @@ class LbmCommand {
   void line(int narg, char** arg);
 
  private:
+  void clear();
   void restart(ArgumentReader& reader);
   void accuracy(ArgumentReader& reader);
   void plan(ArgumentReader& reader);
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
-  CoupledSettings settings_now() const;
+  /// settings_now; a UserError where its cells are too small for the grains.
+  CoupledSettings settings_for_grains() const;
   lbm::Decomposition decomposition(Vec3& low);
   void build();
   void read_state();
@@ -44,7 +46,7 @@ class LbmCommand {
   Scene scene() { return {lmp_, *port_, *simulation_}; }
 
   LAMMPS_NS::LAMMPS* lmp_;
-  LbmSettings settings_;
+  LbmRequest request_;
   std::unique_ptr<LiggghtsPort> port_;
   std::unique_ptr<CoupledSimulation> simulation_;
   RunEffects effects_;

@@ -33,7 +33,7 @@ constexpr double kSameGravity = 2e-3;
 
 }  // namespace
 
-LbmRun::LbmRun(const Scene& scene, const LbmSettings& settings, RunOutput& output, RunEffects& effects)
+LbmRun::LbmRun(const Scene& scene, const LbmRequest& settings, RunOutput& output, RunEffects& effects)
     : scene_(scene),
       settings_(settings),
       output_(output),

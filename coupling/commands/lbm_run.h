@@ -7,7 +7,7 @@
 
 #include "../liggghts/scene.h"
 #include "effect_report.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "run_effects.h"
 #include "run_guards.h"
 #include "run_output.h"
@@ -33,7 +33,7 @@ class LbmRun final : private lbm::RunSteps {
   /// time.
   static constexpr long kCheckEvery = 250;
 
-  LbmRun(const Scene& scene, const LbmSettings& settings, RunOutput& output, RunEffects& effects);
+  LbmRun(const Scene& scene, const LbmRequest& settings, RunOutput& output, RunEffects& effects);
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
@@ -61,7 +61,7 @@ class LbmRun final : private lbm::RunSteps {
   std::optional<std::string> weight_note() const;
 
   Scene scene_;
-  const LbmSettings& settings_;
+  const LbmRequest& settings_;
   RunOutput& output_;
   RunEffects& effects_;
   EffectReport report_;

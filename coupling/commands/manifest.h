@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "../liggghts/liggghts_port.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
 

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "../liggghts/instance.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "styles/style_support.h"
 #include "suffuse/common/error.h"
 

@@ -9,7 +9,9 @@
 #include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
 #include "monitor_request.h"
+#include "styles/style_support.h"
 #include "suffuse/common/time_series_file.h"
+#include "suffuse/common/word_facts.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/plane_sums.h"
 
@@ -44,6 +46,20 @@ struct Quantity {
   /// states. Null: nothing.
   std::shared_ptr<std::vector<double>> reference = {};
 };
+
+/// A quantity that a monitor knows by its word: what readers are told of it, what follows the word (null:
+/// nothing), and how it is made.
+struct QuantityKind {
+  WordFacts facts;
+  void (*read)(ArgumentReader&, QuantityRequest&);
+  Quantity (*make)(const QuantityRequest&, const MonitorRequest&, Sample& now);
+  bool of_layers = false;  ///< needs `layers LO HI N`
+};
+
+/// All of them, in the order of docs/reference/lbm.md. Another one is another row.
+const std::vector<QuantityKind>& quantity_kinds();
+/// Null for a reference, c_ID[k], f_ID[k] or v_NAME.
+const QuantityKind* find_quantity(const std::string& word);
 
 /// The quantity that a line of the script asks for. A UserError if it names what does not exist.
 /// `box_low` is LIGGGHTS's low corner along the monitor's axis. Collective.

@@ -1,4 +1,5 @@
-// What a monitor can be asked for: docs/reference/lbm.md lists the words and the columns that they give.
+// What a monitor can be asked for: one row of kKinds each, from which reading, help and docs/reference/lbm.md
+// follow.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -268,52 +269,122 @@ Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
           first};
 }
 
+Quantity velocity_quantity(const QuantityRequest& request, const MonitorRequest&, Sample&) {
+  return {vector_columns(request.word, "m_per_s"), [](Sample& sample, std::vector<double>& row) {
+            append_vector(row, sample.planes().superficial_velocity());
+          }};
+}
+
+Quantity gradient_quantity(const QuantityRequest& request, const MonitorRequest& monitor, Sample&) {
+  return {
+      {request.word + "_" + axis_name(monitor.axis)}, [](Sample& sample, std::vector<double>& row) {
+        const PlaneSums& planes = sample.planes();
+        row.push_back(gradient_between(sample, planes.spacing * static_cast<double>(planes.first_with_room()),
+                                       planes.spacing * static_cast<double>(planes.end_of_room())));
+      }};
+}
+
+Quantity checked_layer_quantity(const QuantityRequest& request, const MonitorRequest& monitor, Sample& now) {
+  check_layers(monitor, now.scene.simulation);
+  return layer_quantity(request.word, monitor, now.scene.simulation.origin()[monitor.axis]);
+}
+
+Quantity force_quantity(const QuantityRequest& request, const MonitorRequest&, Sample&) {
+  return {vector_columns(request.word, "n"),
+          [](Sample& sample, std::vector<double>& row) { append_vector(row, sample.grains().load); }};
+}
+
+Quantity energy_quantity() {
+  return {{"fluid_kinetic_energy_j", "grains_kinetic_energy_j"},
+          [](Sample& sample, std::vector<double>& row) {
+            row.push_back(sample.planes().fluid_kinetic_energy);
+            row.push_back(sample.grains().kinetic_energy);
+          }};
+}
+
+Quantity number_quantity() {
+  return {{"grains"}, [](Sample& sample, std::vector<double>& row) {
+            row.push_back(static_cast<double>(sample.grains().grains));
+          }};
+}
+
+Quantity extremes_quantity() {
+  return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
+          [](Sample& sample, std::vector<double>& row) {
+            const lbm::FluidExtremes& e = sample.planes().extremes;
+            row.insert(row.end(), {lbm::mach_of(e), e.smallest_density, e.largest_density});
+          }};
+}
+
+void read_group(ArgumentReader& reader, QuantityRequest& quantity) {
+  quantity.group = reader.word("group of mean_force");
+}
+
+void read_diameters(ArgumentReader& reader, QuantityRequest& quantity) {
+  while (reader.next_is_number()) quantity.numbers.push_back(reader.positive("diameter of " + quantity.word));
+  if (!std::is_sorted(quantity.numbers.begin(), quantity.numbers.end()))
+    throw_user_error({reader.who(), quantity.word, "diameters out of order", "rise", "sort them"});
+}
+
+void read_height_and_diameters(ArgumentReader& reader, QuantityRequest& quantity) {
+  if (reader.accept("above")) quantity.above = reader.number("height of " + quantity.word);
+  read_diameters(reader, quantity);
+}
+
+using Q = const QuantityRequest&;
+using M = const MonitorRequest&;
+
+// clang-format off
+const QuantityKind kKinds[] = {
+    {{"superficial_velocity", "", "m/s", "", "", "Darcy velocity over the whole box but for what lies behind walls: flux of fluid and grains less that of the grains"},
+     nullptr, velocity_quantity},
+    {{"hydraulic_gradient", "", "", "", "", "−Δp/(ρ g L) along the axis over the box, or the part of it with room for water, plus the driving `pressure_gradient`"},
+     nullptr, gradient_quantity},
+    {{"layer_gradient", "", "", "", "", "the same over each of the `layers`, layer 1 on top; they lie in the fluid and are a cell thick at least"},
+     nullptr, checked_layer_quantity, true},
+    {{"layer_porosity", "", "", "", "", "of each layer; what lies behind walls is no part of it"},
+     nullptr, checked_layer_quantity, true},
+    {{"layer_pressure", "", "Pa", "", "", "at each layer's middle, mean over the fluid only"},
+     nullptr, checked_layer_quantity, true},
+    {{"bed", "", "m", "", "", "height below which 99 % of the solids lie, porosity up to there, centre of the solids"},
+     nullptr, [](Q, M monitor, Sample&) { return bed_quantity(monitor.axis); }},
+    {{"solid_force", "", "N", "", "", "sum of the fluid's force on grains"},
+     nullptr, force_quantity},
+    {{"mean_force", "GROUP", "N", "", "", "mean of the fluid's force over a group"},
+     read_group, [](Q request, M, Sample& now) { return mean_force_quantity(request, now.scene.lmp); }},
+    {{"mass", "", "kg", "", "", "fluid mass; change of all mass in the lattice; that less what velocity and pressure faces across the axis let in (trapezoidal over the samples): 0 in a closed box, to round-off"},
+     nullptr, [](Q, M, Sample&) { return mass_quantity(); }},
+    {{"discharge", "", "m³/s", "", "", "volume flux through the first and last plane of cells"},
+     nullptr, [](Q, M monitor, Sample&) { return discharge_quantity(monitor.axis); }},
+    {{"kinetic_energy", "", "J", "", "", "of the fluid and of the grains"},
+     nullptr, [](Q, M, Sample&) { return energy_quantity(); }},
+    {{"grains", "", "", "", "", "how many there are"},
+     nullptr, [](Q, M, Sample&) { return number_quantity(); }},
+    {{"grains_left", "D ...", "m", "", "", "how many have gone since the start, by diameter classes"},
+     read_diameters, [](Q request, M, Sample& now) { return grains_left_quantity(request, now); }},
+    {{"eroded_mass", "[above H] D ...", "kg, m", "", "", "mass of the grains that have gone since the start, or with `above` have come to lie beyond that coordinate along the axis, by diameter classes: all, or below the first D, between it and the second, ... above the last. A grain that falls back is no longer eroded"},
+     read_height_and_diameters, [](Q request, M monitor, Sample& now) { return eroded_mass_quantity(request, monitor.axis, now); }},
+    {{"extremes", "", "", "", "", "largest Mach number, smallest and largest density (lattice units)"},
+     nullptr, [](Q, M, Sample&) { return extremes_quantity(); }},
+};
+// clang-format on
+
 }  // namespace
 
+const std::vector<QuantityKind>& quantity_kinds() {
+  static const std::vector<QuantityKind> kinds(std::begin(kKinds), std::end(kKinds));
+  return kinds;
+}
+
+const QuantityKind* find_quantity(const std::string& word) {
+  for (const QuantityKind& kind : quantity_kinds())
+    if (kind.facts.word == word) return &kind;
+  return nullptr;
+}
+
 Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& monitor, Sample& now) {
-  const std::string& word = request.word;
-  const int axis = monitor.axis;
-  if (word == "superficial_velocity")
-    return {vector_columns(word, "m_per_s"), [](Sample& sample, std::vector<double>& row) {
-              append_vector(row, sample.planes().superficial_velocity());
-            }};
-  if (word == "hydraulic_gradient")
-    return {{word + "_" + axis_name(axis)}, [](Sample& sample, std::vector<double>& row) {
-              const PlaneSums& planes = sample.planes();
-              row.push_back(gradient_between(sample,
-                                             planes.spacing * static_cast<double>(planes.first_with_room()),
-                                             planes.spacing * static_cast<double>(planes.end_of_room())));
-            }};
-  if (word.starts_with("layer_")) {
-    check_layers(monitor, now.scene.simulation);
-    return layer_quantity(word, monitor, now.scene.simulation.origin()[axis]);
-  }
-  if (word == "solid_force")
-    return {vector_columns(word, "n"),
-            [](Sample& sample, std::vector<double>& row) { append_vector(row, sample.grains().load); }};
-  if (word == "mean_force") return mean_force_quantity(request, now.scene.lmp);
-  if (word == "mass") return mass_quantity();
-  if (word == "discharge") return discharge_quantity(axis);
-  if (word == "kinetic_energy")
-    return {{"fluid_kinetic_energy_j", "grains_kinetic_energy_j"},
-            [](Sample& sample, std::vector<double>& row) {
-              row.push_back(sample.planes().fluid_kinetic_energy);
-              row.push_back(sample.grains().kinetic_energy);
-            }};
-  if (word == "bed") return bed_quantity(axis);
-  if (word == "grains")
-    return {{"grains"}, [](Sample& sample, std::vector<double>& row) {
-              row.push_back(static_cast<double>(sample.grains().grains));
-            }};
-  if (word == "grains_left") return grains_left_quantity(request, now);
-  if (word == "eroded_mass") return eroded_mass_quantity(request, axis, now);
-  if (word == "extremes")
-    return {{"largest_mach", "smallest_density_lattice", "largest_density_lattice"},
-            [](Sample& sample, std::vector<double>& row) {
-              const lbm::FluidExtremes& e = sample.planes().extremes;
-              row.insert(row.end(), {lbm::mach_of(e), e.smallest_density, e.largest_density});
-            }};
-  return reference_quantity(request, now.scene.lmp);
+  const QuantityKind* kind = find_quantity(request.word);
+  return kind != nullptr ? kind->make(request, monitor, now) : reference_quantity(request, now.scene.lmp);
 }
 
 }  // namespace suffuse::coupling

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "styles/style_support.h"
-
 namespace suffuse::coupling {
 
 /// One quantity of a `lbm monitor` line, as written.
@@ -32,8 +30,5 @@ struct MonitorRequest {
   LayerRequest layers;
   std::vector<QuantityRequest> quantities;
 };
-
-/// Reads the words after the monitor's ID. A UserError for unknown words and incomplete lines.
-MonitorRequest read_monitor_request(ArgumentReader& reader, const std::string& id);
 
 }  // namespace suffuse::coupling

@@ -9,7 +9,7 @@
 #include "../liggghts/film_forces.h"
 #include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/effects.h"
 

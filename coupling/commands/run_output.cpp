@@ -98,7 +98,7 @@ void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
          "read_restart the grains of the same state: FILE.grains with FILE, FILE.1/grains with FILE.1"});
 }
 
-void RunOutput::prepare(const LbmSettings& settings, const Scene& scene, const MappedScene& mapped,
+void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
                         std::optional<double> continue_after) {
   LAMMPS_NS::LAMMPS* const lmp = scene.lmp;
   CoupledSimulation& simulation = scene.simulation;

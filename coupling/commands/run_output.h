@@ -9,7 +9,7 @@
 
 #include "../liggghts/scene.h"
 #include "checkpoint_contents.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "monitor.h"
 #include "suffuse/coupling/coupled_simulation.h"
 #include "suffuse/coupling/grain_output.h"
@@ -23,7 +23,7 @@ class RunOutput {
  public:
   /// Opens what the script has asked for since the last call and drops what it has taken back. With
   /// `continue_after` (s) new files go on with what an earlier run left in them up to then. Collective.
-  void prepare(const LbmSettings& settings, const Scene& scene, const MappedScene& mapped,
+  void prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
                std::optional<double> continue_after);
 
   /// Is anything due once the fluid has made so many steps?

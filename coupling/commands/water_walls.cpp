@@ -116,37 +116,6 @@ void refuse_faces_behind(const lbm::Walls& walls, const lbm::Fluid& fluid, const
 
 }  // namespace
 
-void read_walls(ArgumentReader& reader, LbmSettings& settings) {
-  using Water = WallSettings::Water;
-  WallSettings walls = settings.walls;
-  if (reader.accept("open")) {
-    do {
-      const std::string id = reader.word("ID of a fix wall/gran or of its mesh");
-      if (std::find(walls.open.begin(), walls.open.end(), id) != walls.open.end())
-        throw_user_error({reader.who(), "open " + id, "given twice", "be given once", "drop one of them"});
-      walls.open.push_back(id);
-    } while (!reader.done());
-  } else if (reader.accept("water")) {
-    walls.points.clear();
-    if (reader.accept("grains")) {
-      walls.water = Water::with_grains;
-    } else if (reader.accept("all")) {
-      walls.water = Water::everywhere;
-    } else if (reader.accept("at")) {
-      walls.water = Water::at_points;
-      do {
-        const double x = reader.number("x"), y = reader.number("y"), z = reader.number("z");
-        walls.points.emplace_back(x, y, z);
-      } while (!reader.done());
-    } else {
-      reader.unknown(reader.word("water (grains, all, at)"), "grains, all, at");
-    }
-  } else {
-    reader.unknown(reader.word("keyword (open, water)"), "open, water");
-  }
-  settings.walls = walls;
-}
-
 bool WaterWalls::follow(const Scene& scene, const WallSettings& settings, const std::string& saved_state) {
   CoupledSimulation& simulation = scene.simulation;
   const lbm::Fluid& fluid = simulation.fluid();

@@ -6,7 +6,7 @@
 
 #include "../liggghts/scene.h"
 #include "../liggghts/script_walls.h"
-#include "lbm_settings.h"
+#include "lbm_request.h"
 #include "suffuse/coupling/coupled_simulation.h"
 
 namespace suffuse::coupling {

@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
-#include <map>
 #include <numbers>
 #include <set>
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/common/toml_file.h"
+#include "suffuse/lbm/flow_words.h"
 #include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::lbm {
@@ -44,6 +44,11 @@ class Section {
   std::optional<double> number(const char* key) const {
     const std::optional<double> value = get<double>(key, "be a number");
     if (value && !std::isfinite(*value)) refuse(key, *value, "be finite");
+    return value;
+  }
+  std::optional<double> number(const NumberWord& word) const {
+    const std::optional<double> value = number(word.word);
+    if (value && !word.range.holds(*value)) refuse(word.word, *value, word.range.rule().c_str());
     return value;
   }
   std::optional<double> positive(const char* key) const {
@@ -104,26 +109,21 @@ class Section {
 
 template <class Choice>
 Choice choose(const Section& section, const char* key, const std::string& word,
-              const std::map<std::string, Choice>& choices) {
-  const auto found = choices.find(word);
-  if (found != choices.end()) return found->second;
+              const std::vector<std::pair<std::string, Choice>>& choices) {
   std::string names;
-  for (const auto& [name, choice] : choices) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, choice] : choices) {
+    if (name == word) return choice;
+    names += (names.empty() ? "" : ", ") + name;
+  }
   throw_user_error({section.who(), key, word, "be one of " + names, ""});
 }
-
-const std::map<std::string, FaceKind> kFaceKinds{{"periodic", FaceKind::periodic},
-                                                 {"noslip", FaceKind::no_slip},
-                                                 {"freeslip", FaceKind::free_slip},
-                                                 {"velocity", FaceKind::velocity},
-                                                 {"pressure", FaceKind::pressure}};
 
 FlowFace read_face(const std::string& file, const Section& boundary, const std::string& name) {
   FlowFace face;
   const toml::node* node = boundary.find(name.c_str());
   if (node == nullptr) return face;
   if (const std::optional<std::string> word = node->value<std::string>()) {
-    face.kind = choose(boundary, name.c_str(), *word, kFaceKinds);
+    face.kind = choose(boundary, name.c_str(), *word, face_kind_words());
     if (face.kind == FaceKind::velocity || face.kind == FaceKind::pressure)
       throw_user_error({boundary.who(), name, *word, "come with a value",
                         fmt::format("{} = {{ kind = \"{}\", value = ... }}", name, *word)});
@@ -134,7 +134,7 @@ FlowFace read_face(const std::string& file, const Section& boundary, const std::
         {boundary.who(), name, "(another kind of value)", "be a kind or { kind, value, ramp }", ""});
   const Section table(file, "boundary." + name, node, {"kind", "value", "ramp"});
   const std::string kind = table.text("kind").value_or("missing");
-  face.kind = choose(table, "kind", kind, kFaceKinds);
+  face.kind = choose(table, "kind", kind, face_kind_words());
   const bool valued = face.kind == FaceKind::velocity || face.kind == FaceKind::pressure;
   if (valued != (table.find("value") != nullptr) || (!valued && table.find("ramp") != nullptr))
     throw_user_error({table.who(), "kind", kind, valued ? "come with a value" : "come without value and ramp",
@@ -146,33 +146,30 @@ FlowFace read_face(const std::string& file, const Section& boundary, const std::
 }
 
 void read_lattice(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section fluid(file, "fluid", root.get("fluid"), {"density", "viscosity"});
-  flow.units.density = fluid.positive("density").value_or(1000);
-  flow.units.viscosity = fluid.positive("viscosity").value_or(1e-6);
-  const Section lattice(
-      file, "lattice", root.get("lattice"),
-      {"size", "spacing", "relaxation_time", "timestep", "mach", "max_velocity", "pressure_difference",
-       "precision", "collision", "magic", "smagorinsky", "incompressible"});
-  flow.units.spacing = lattice.positive("spacing");
-  flow.units.relaxation_time = lattice.number("relaxation_time");
-  flow.units.time_step = lattice.positive("timestep");
-  flow.units.mach = lattice.positive("mach");
-  flow.units.largest_velocity = lattice.positive("max_velocity");
+  const Section fluid(file, "fluid", root.get("fluid"), {kDensityWord.word, kViscosityWord.word});
+  flow.units.density = fluid.number(kDensityWord).value_or(flow.units.density);
+  flow.units.viscosity = fluid.number(kViscosityWord).value_or(flow.units.viscosity);
+  const Section lattice(file, "lattice", root.get("lattice"),
+                        {"size", kSpacingWord.word, kRelaxationTimeWord.word, kTimestepWord.word,
+                         kMachWord.word, kMaxVelocityWord.word, "pressure_difference", "precision",
+                         "collision", kMagicWord.word, "smagorinsky", "incompressible"});
+  flow.units.spacing = lattice.number(kSpacingWord);
+  flow.units.relaxation_time = lattice.number(kRelaxationTimeWord);
+  flow.units.time_step = lattice.number(kTimestepWord);
+  flow.units.mach = lattice.number(kMachWord);
+  flow.units.largest_velocity = lattice.number(kMaxVelocityWord);
   flow.units.pressure_difference = lattice.number("pressure_difference");
   const std::optional<Vec3> size = lattice.vector("size");
   if (!size || !(size->minCoeff() > 0))
     throw_user_error({lattice.who(), "size", size ? "not positive" : "missing", "be three lengths in m", ""});
   flow.size = *size;
-  flow.precision =
-      choose<Precision>(lattice, "precision", lattice.text("precision").value_or("double"),
-                        {{"double", Precision::double_precision}, {"float", Precision::float_precision}});
-  const auto collisions = collision_words();
-  flow.collision.collision_operator =
-      choose<CollisionOperator>(lattice, "collision", lattice.text("collision").value_or("trt"),
-                                {collisions.begin(), collisions.end()});
-  if (lattice.find("magic") != nullptr && !has_magic(flow.collision.collision_operator))
+  flow.precision = choose<Precision>(lattice, "precision", lattice.text("precision").value_or("double"),
+                                     precision_words());
+  flow.collision.collision_operator = choose<CollisionOperator>(
+      lattice, "collision", lattice.text("collision").value_or("trt"), collision_words());
+  if (lattice.find(kMagicWord.word) != nullptr && !has_magic(flow.collision.collision_operator))
     throw_user_error({lattice.who(), "magic", "given", "go with " + words_with_magic(), "drop it"});
-  flow.collision.magic = lattice.positive("magic").value_or(flow.collision.magic);
+  flow.collision.magic = lattice.number(kMagicWord).value_or(flow.collision.magic);
   flow.collision.smagorinsky = lattice.not_negative("smagorinsky").value_or(0);
   flow.collision.incompressible = lattice.truth("incompressible").value_or(false);
 }
@@ -205,8 +202,8 @@ std::vector<Field> read_fields(const Section& output) {
   const toml::array* names = output.find("fields")->as_array();
   if (names == nullptr || names->empty())
     throw_user_error({output.who(), "fields", "(another value)", "be a list of names", ""});
-  std::map<std::string, Field> words;
-  for (const FieldFacts& facts : kFields) words[facts.word] = facts.field;
+  std::vector<std::pair<std::string, Field>> words;
+  for (const FieldFacts& facts : kFields) words.emplace_back(facts.word, facts.field);
   std::vector<Field> fields;
   for (const toml::node& name : *names) {
     const std::string word = name.value<std::string>().value_or("");
@@ -228,15 +225,15 @@ void refuse_shared_files(const std::string& file, const FlowCase& flow) {
 }
 
 void read_files(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section monitor(file, "monitor", root.get("monitor"), {"file", "every"});
+  const Section monitor(file, "monitor", root.get("monitor"), {"file", kEveryWord.word});
   flow.monitor_file = file_name(monitor, "file");
-  flow.monitor_every = monitor.positive("every").value_or(flow.time / 100);
-  const Section output(file, "output", root.get("output"), {"file", "every", "fields", "append"});
+  flow.monitor_every = monitor.number(kEveryWord).value_or(flow.time / 100);
+  const Section output(file, "output", root.get("output"), {"file", kEveryWord.word, "fields", "append"});
   if (const std::string path = file_name(output, "file"); !path.empty()) {
     flow.output.emplace();
     flow.output->path = path;
     flow.output->append = output.truth("append").value_or(false);
-    flow.output_every = output.positive("every").value_or(flow.time);
+    flow.output_every = output.number(kEveryWord).value_or(flow.time);
     if (output.find("fields") != nullptr) flow.output->fields = read_fields(output);
   }
   const Section restart(file, "restart", root.get("restart"), {"read", "write"});

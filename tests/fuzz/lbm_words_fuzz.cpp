@@ -3,50 +3,31 @@
 #include <mpi.h>
 
 #include <cstdlib>
-#include <functional>
-#include <map>
 #include <sstream>
 #include <vector>
 
-#include "commands/lbm_settings.h"
+#include "commands/lbm_words.h"
 #include "fuzz_input.h"
 #include "input.h"
 #include "lammps.h"
 
 using namespace suffuse;
-using coupling::LbmSettings;
+using coupling::LbmRequest;
 
 namespace {
 
 LAMMPS_NS::LAMMPS* lmp = nullptr;
 
-const std::map<std::string, std::function<void(ArgumentReader&, LbmSettings&)>>& commands() {
-  static const std::map<std::string, std::function<void(ArgumentReader&, LbmSettings&)>> all{
-      {"preset", coupling::read_preset},
-      {"fluid", coupling::read_fluid},
-      {"lattice", coupling::read_lattice},
-      {"boundary", [](ArgumentReader& r, LbmSettings& s) { coupling::read_boundary(r, lmp, s); }},
-      {"force", [](ArgumentReader& r, LbmSettings& s) { coupling::read_force(r, lmp, s); }},
-      {"collision", coupling::read_collision},
-      {"solid", coupling::read_solid},
-      {"walls", coupling::read_walls},
-      {"effect", coupling::read_effect},
-      {"couple", coupling::read_couple},
-      {"monitor", coupling::read_monitor},
-      {"output", coupling::read_output}};
-  return all;
-}
-
-void read_line(const std::string& line, LbmSettings& settings) {
+void read_line(const std::string& line, LbmRequest& settings) {
   std::istringstream stream(line);
   std::vector<std::string> words;
   for (std::string word; stream >> word;) words.push_back(word);
   if (words.size() > 1 && words[0] == "lbm") words.erase(words.begin());
-  if (words.empty() || commands().count(words[0]) == 0) return;
+  if (words.empty()) return;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   ArgumentReader reader("lbm " + words[0], static_cast<int>(arguments.size()), arguments.data(), 1);
-  fuzz::refused_or_read([&] { commands().at(words[0])(reader, settings); });
+  fuzz::refused_or_read([&] { coupling::read_request(words[0], reader, lmp, settings); });
 }
 
 }  // namespace
@@ -64,13 +45,11 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream lines{std::string(fuzz::text_of(data, size))};
-  LbmSettings settings;
+  LbmRequest settings;
   for (std::string line; std::getline(lines, line);) read_line(line, settings);
   return fuzz::refused_or_read([&] {
-    if (!settings.fluid_given || !settings.lattice_given) return;
-    const lbm::Units units(settings.coupled.units);
-    coupling::gravity_now(settings, units, lmp);
-    coupling::pressure_gradient_now(settings, units, lmp);
+    if (!settings.lattice_given) return;
+    coupling::settings_now(settings, lmp);
     coupling::values_change(settings);
     for (const auto& output : settings.outputs) coupling::files_of(output);
   });

@@ -49,10 +49,19 @@ struct CheckpointRequest {
   double every = 0;  ///< s
 };
 
-/// Everything that `lbm` lines of a script have said so far.
-struct LbmSettings {
-  CoupledSettings coupled;
-  bool fluid_given = false, lattice_given = false;
+/// Everything that `lbm` lines of a script have said so far, as written: `v_NAME` stands for itself, `auto`
+/// is open. What it comes to now is CoupledSettings, by settings_now.
+struct LbmRequest {
+  lbm::UnitsRequest units;
+  std::optional<AveragedSettings> averaged;
+  lbm::CollisionSettings collision;
+  lbm::Precision precision = lbm::Precision::double_precision;
+  SolidSettings solids;
+  EffectSettings effects;
+  int substeps = 0;  ///< 0: auto
+  bool average_force = false;
+  std::optional<double> virtual_mass;  ///< else auto
+  bool lattice_given = false;
   std::vector<std::string> resolved_words;  ///< lines given that only the resolved flow knows
   std::string region;                       ///< of the fluid; empty: LIGGGHTS's box
   std::array<ScriptFace, lbm::kFaces> faces;
@@ -67,28 +76,13 @@ struct LbmSettings {
   GuardLimits guards;
 };
 
-/// Reads the words after `lbm fluid`, `lbm lattice`, ... into the settings. Each throws a UserError for words
-/// that it does not know and values that cannot work, and leaves the settings as they were.
-/// docs/reference/lbm.md lists the words.
-/// `lbm method resolved | averaged [drag LAW] [graded yes|no]`
-void read_method(ArgumentReader& reader, LbmSettings& settings);
-void read_preset(ArgumentReader& reader, LbmSettings& settings);
-void read_fluid(ArgumentReader& reader, LbmSettings& settings);
-void read_lattice(ArgumentReader& reader, LbmSettings& settings);
-void read_boundary(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings);
-void read_force(ArgumentReader& reader, LAMMPS_NS::LAMMPS* lmp, LbmSettings& settings);
-void read_collision(ArgumentReader& reader, LbmSettings& settings);
-void read_solid(ArgumentReader& reader, LbmSettings& settings);
-void read_walls(ArgumentReader& reader, LbmSettings& settings);
-void read_effect(ArgumentReader& reader, LbmSettings& settings);
-void read_couple(ArgumentReader& reader, LbmSettings& settings);
-void read_guard(ArgumentReader& reader, LbmSettings& settings);
-void read_monitor(ArgumentReader& reader, LbmSettings& settings);
-void read_output(ArgumentReader& reader, LbmSettings& settings);
+/// What the request comes to with the values that variables have now. What `auto` leaves open is still open.
+/// Collective.
+CoupledSettings settings_now(const LbmRequest& request, LAMMPS_NS::LAMMPS* lmp);
 
 /// Face conditions in lattice units, from the values that variables have now. Faces that no line named are
 /// periodic along axes where LIGGGHTS is, and no-slip otherwise. Collective.
-lbm::FaceConditions faces_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+lbm::FaceConditions faces_now(const LbmRequest& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
 
 /// Every file that an output writes.
 std::vector<std::string> files_of(const OutputRequest& output);
@@ -96,15 +90,15 @@ std::vector<std::string> files_of(const OutputRequest& output);
 std::vector<std::string> files_of(const CheckpointRequest& checkpoint);
 
 /// A UserError if one of these files belongs to another monitor, output or restart line already.
-void refuse_shared_files(const ArgumentReader& reader, const LbmSettings& settings,
+void refuse_shared_files(const ArgumentReader& reader, const LbmRequest& settings,
                          const std::vector<std::string>& files);
 
 /// What drives fluid and grains, SI. A UserError where velocities would change absurdly in every step: by 100
 /// cells a step of gravity, by a tenth of one of a pressure gradient.
-Vec3 gravity_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
-Vec3 pressure_gradient_now(const LbmSettings& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+Vec3 gravity_now(const LbmRequest& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
+Vec3 pressure_gradient_now(const LbmRequest& settings, const lbm::Units& units, LAMMPS_NS::LAMMPS* lmp);
 
 /// Does any face or force follow a variable?
-bool values_change(const LbmSettings& settings);
+bool values_change(const LbmRequest& settings);
 
 }  // namespace suffuse::coupling

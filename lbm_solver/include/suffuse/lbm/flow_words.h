@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "suffuse/common/word_facts.h"
+#include "suffuse/lbm/boundary.h"
+#include "suffuse/lbm/fluid.h"
+
+namespace suffuse::lbm {
+
+/// Words that mean the same in a script's `lbm` lines and in the file of `suffuse-flow`.
+inline constexpr NumberWord kDensityWord{"density", "RHO", "kg/m³", kPositive, "of the fluid"};
+inline constexpr NumberWord kViscosityWord{"viscosity", "NU", "m²/s", kPositive, "kinematic"};
+inline constexpr NumberWord kSpacingWord{"spacing", "DX", "m", kPositive, "edge of a cell"};
+inline constexpr NumberWord kRelaxationTimeWord{"relaxation_time", "TAU", "", kPositive,
+                                                "above 0.5: viscosity = (TAU - 1/2)/3 dx²/dt"};
+inline constexpr NumberWord kTimestepWord{"timestep", "DT", "s", kPositive, "of the fluid"};
+inline constexpr NumberWord kMaxVelocityWord{"max_velocity", "U", "m/s", kPositive,
+                                             "the fastest flow expected"};
+inline constexpr NumberWord kMachWord{"mach", "MA", "", kPositive, "U over the lattice's speed of sound"};
+inline constexpr NumberWord kMagicWord{"magic", "LAMBDA", "", kPositive,
+                                       "1e-4 to 100; ties the odd relaxation time to the even one"};
+inline constexpr NumberWord kEveryWord{"every", "T", "s", kPositive, "between two, in whole fluid steps"};
+
+inline constexpr const char* kPrecisionMeaning = "of the stored populations; `float` halves the memory";
+inline constexpr const char* kIncompressibleMeaning = "He and Luo's equilibrium";
+
+std::vector<std::pair<std::string, Precision>> precision_words();
+std::vector<std::pair<std::string, FaceKind>> face_kind_words();
+
+}  // namespace suffuse::lbm
