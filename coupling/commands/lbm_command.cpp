@@ -275,8 +275,7 @@ void LbmCommand::run(ArgumentReader& reader) {
   request.steady = asked.steady;
   request.window = asked.window;
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
-  if (request_.effects.buoyancy != Switch::off && !request_.gravity.is_zero())
-    refuse_double_buoyancy(lmp_);
+  if (request_.effects.buoyancy != Switch::off && !request_.gravity.is_zero()) refuse_double_buoyancy(lmp_);
   require_no_sets_of_grains(lmp_, reader.who());
   if (request_.wall_limit.given() && !request_.checkpoint)
     throw_user_error({"lbm stop", "after", request_.wall_limit.text(), "have a place for the state",

@@ -11,7 +11,7 @@ import tempfile
 BOX = "units si\natom_style granular\nboundary f f f\nnewton off\nregion b block 0 1 0 1 0 1 units box\ncreate_box 1 b\n"
 SCENE = "input_scripts/03_fluidisation/in.fluidisation"
 LINES = [  # a line of a script, what the refusal must say
-    ("lbm latice spacing 1", ["word = latice", "did you mean lattice?", "lbm.md"]),
+    ("lbm latice spacing 1", ["word = latice", "did you mean lattice?", "--help lbm"]),
     ("lbm lattice spacin 1", ["did you mean spacing?"]),
     ("lbm lattice spacing 0.1 precision flaot", ["precision = flaot", "did you mean float?"]),
     ("lbm monitor m every 1 file f.csv superficial_velocty", ["did you mean superficial_velocity?"]),
