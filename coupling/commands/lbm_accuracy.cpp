@@ -83,26 +83,13 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Liggght
   return drive;
 }
 
-AccuracyScene scene_of(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
-                       const LbmRequest& settings, std::string& velocity_from) {
-  const LiggghtsPort::Summary grains = port.summary();
-  AccuracyScene scene;
-  scene.size = fluid_box(lmp, port, request.region).size;
-  scene.density = settings.units.density;
-  scene.viscosity = settings.units.viscosity;
-  if (grains.grains == 0) return scene;
-  scene.fine_diameter = fine_diameter(port, grains);
-  const Drive drive = drive_of(lmp, settings, grains, port.anything_moves(), scene.size);
-  const double porosity = 1 - std::min(grains.packing, 0.7);
-  const double fastest = grains.packing > kBed ? kFastestInPores * drive.superficial / porosity
-                                               : std::max(1.5 * drive.superficial, drive.grain_speed);
-  velocity_from = request.largest_velocity ? "as given" : "from " + drive.from;
-  scene.velocity = request.largest_velocity.value_or(fastest);
-  scene.pressure_range = drive.pressure_range;
-  // A bed's grains carry their water along; a grain alone does not.
-  if (grains.packing > kBed && port.anything_moves())
-    scene.grain_speed = std::min(drive.grain_speed, scene.velocity);
-  return scene;
+/// In which a grain of this diameter follows the water around it, s: Stokes' law, in a bed with the drag of
+/// Ergun's viscous term on each grain, 150/18 of the solid fraction over the porosity squared (key:
+/// ergun1952).
+double response_time(double diameter, const LiggghtsPort::Summary& grains, const lbm::UnitsRequest& units) {
+  const double solids = std::min(grains.packing, 0.7), porosity = 1 - solids;
+  const double drag = std::max(1., 150. / 18 * solids / (porosity * porosity));
+  return grains.smallest_density / units.density * diameter * diameter / (18 * units.viscosity * drag);
 }
 
 std::string percent(double share) {
@@ -156,10 +143,37 @@ std::string text_of(const AccuracyChoice& choice, const AccuracyScene& scene, co
 
 }  // namespace
 
+DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const LbmRequest& settings,
+                         std::optional<double> largest_velocity, const std::string& region) {
+  const LiggghtsPort::Summary grains = port.summary();
+  DrivenScene driven;
+  AccuracyScene& scene = driven.scene;
+  scene.size = fluid_box(lmp, port, region).size;
+  scene.density = settings.units.density;
+  scene.viscosity = settings.units.viscosity;
+  if (grains.grains == 0) {
+    scene.velocity = largest_velocity.value_or(0);
+    return driven;
+  }
+  const bool grains_move = port.anything_moves();
+  scene.fine_diameter = fine_diameter(port, grains);
+  const Drive drive = drive_of(lmp, settings, grains, grains_move, scene.size);
+  const double porosity = 1 - std::min(grains.packing, 0.7);
+  const double fastest = grains.packing > kBed ? kFastestInPores * drive.superficial / porosity
+                                               : std::max(1.5 * drive.superficial, drive.grain_speed);
+  driven.velocity_from = largest_velocity ? "as given" : "from " + drive.from;
+  scene.velocity = largest_velocity.value_or(fastest);
+  scene.pressure_range = drive.pressure_range;
+  // A bed's grains carry their water along; a grain alone does not.
+  if (grains.packing > kBed && grains_move) scene.grain_speed = std::min(drive.grain_speed, scene.velocity);
+  if (grains_move) scene.response_time = response_time(2 * grains.smallest_radius, grains, settings.units);
+  return driven;
+}
+
 void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
                   LbmRequest& settings) {
-  std::string velocity_from;
-  const AccuracyScene scene = scene_of(lmp, request, port, settings, velocity_from);
+  const auto [scene, velocity_from] =
+      driven_scene(lmp, port, settings, request.largest_velocity, request.region);
   const AccuracyChoice choice = choose_for_accuracy(request.accuracy, scene);
   lbm::UnitsRequest& units = settings.units;
   units.spacing = choice.spacing;

@@ -259,7 +259,9 @@ void LbmCommand::plan(ArgumentReader& reader) {
   double looks = 1. / LbmRun::kCheckEvery;
   for (const MonitorRequest& monitor : request_.monitors)
     looks = std::max(looks, std::min(1., lbm::Units(coupled.units).time_step() / monitor.every));
-  plan_run(lmp_, coupled, parts, low, *port_, time, looks);
+  plan_run(lmp_, coupled, parts, low, *port_,
+           driven_scene(lmp_, *port_, request_, request_.units.largest_velocity, request_.region), time,
+           looks);
   // As if there had been no plan.
   port_->set_time_step(time_step);
   if (simulation_ != nullptr) return;

@@ -215,10 +215,47 @@ std::string prices_text(const Costs& costs, double steps, double cells) {
   return text;
 }
 
+/// What the settings are expected to err by, source after source. The resolution's is that of the calibrated
+/// coefficient; what contacts' softness changes is told by `dem_timestep`.
+std::string errors_table(const CoupledSettings& settings, const DrivenScene& driven,
+                         const lbm::Units& units) {
+  const AccuracyScene& scene = driven.scene;
+  const double spacing = units.spacing(), step = units.time_step();
+  const lbm::CollisionOperator collision = settings.effects.comoving == Switch::on
+                                               ? lbm::CollisionOperator::trt_comoving
+                                               : settings.fluid.collision.collision_operator;
+  AccuracyErrors errors = expected_errors(scene, spacing, step, collision);
+  if (!is_calibrated(settings)) errors.resolution = 0;
+  std::string text = fmt::format("{:<22}{:>12}\n", "error expected by", "about");
+  const auto row = [&](const char* name, double error, const std::string& why) {
+    text += fmt::format("{:<22}{:>10.2g} %  {}\n", name, 100 * error, why);
+  };
+  if (errors.resolution > 0)
+    row("resolution", errors.resolution,
+        fmt::format("{:.2g} cells per diameter of the finest quarter of the surface",
+                    scene.fine_diameter / spacing));
+  if (scene.velocity > 0)
+    row("compressibility", errors.compressibility,
+        fmt::format("Mach number {:.2g} at {:.3g} m/s, {}", expected_mach(scene, spacing, step),
+                    scene.velocity, driven.velocity_from));
+  if (scene.pressure_range > 0)
+    row("density", errors.density, fmt::format("pressures differ by {:.3g} Pa", scene.pressure_range));
+  if (scene.grain_speed > 0 && !settings.averaged)
+    row("carried water", errors.motion,
+        fmt::format("grains at {:.2g} viscosities a cell, {}", scene.grain_speed * spacing / scene.viscosity,
+                    name_of(collision)));
+  row("together", errors.together(), "of the permeability, or a steady speed");
+  if (errors.coupling > 0)
+    row("coupling", errors.coupling,
+        fmt::format("while speeds change: half a step over the {:.2g} s in which the smallest grain follows",
+                    scene.response_time));
+  return text;
+}
+
 }  // namespace
 
 void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm::Decomposition& parts,
-              const Vec3& low, LiggghtsPort& port, double time, double looks) {
+              const Vec3& low, LiggghtsPort& port, const DrivenScene& driven, double time, double looks) {
   const lbm::Units units(settings.units);
   const LiggghtsPort::Summary grains = port.summary();
   const bool grains_move = grains.grains > 0 && port.anything_moves();
@@ -231,6 +268,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   tell(lmp,
        scene_text(settings, units, parts.cells(), grains, fine, time, steps, costs.bytes) +
            cost_table(costs, steps, past.grain_steps > 0) +
+           (grains.grains > 0 && !settings.averaged ? errors_table(settings, driven, units) : "") +
            (is_calibrated(settings) && fine > 0 ? prices_text(costs, steps, fine / units.spacing()) : ""));
 }
 

@@ -57,16 +57,13 @@ void set_time_step(AccuracyChoice& choice, double accuracy, const AccuracyScene&
   choice.bound = least.name;
   choice.time_step = least.step;
   choice.relaxation_time = 0.5 + 3 * scene.viscosity * choice.time_step / (dx * dx);
-  choice.mach = std::sqrt(3.) * fastest * choice.time_step / dx;
-  choice.errors.compressibility = squared(choice.mach);
-  choice.errors.density = 1.5 * scene.pressure_range / scene.density * squared(choice.time_step / dx);
+  choice.mach = expected_mach(scene, dx, choice.time_step);
 }
 
 void set_operators(AccuracyChoice& choice, double accuracy, const AccuracyScene& scene) {
   const double fast = scene.grain_speed * choice.spacing / scene.viscosity;
   const bool comoving = fast > kFastGrains.limit;
   choice.collision = comoving ? lbm::CollisionOperator::trt_comoving : lbm::CollisionOperator::trt;
-  choice.errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
   const double moves = scene.velocity * choice.time_step / choice.spacing;
   if (accuracy < kFloatFrom || moves < kLeastCellsAStep) choice.precision = lbm::Precision::double_precision;
 }
@@ -75,6 +72,23 @@ void set_operators(AccuracyChoice& choice, double accuracy, const AccuracyScene&
 
 double AccuracyErrors::together() const {
   return std::sqrt(squared(resolution) + squared(compressibility) + squared(density) + squared(motion));
+}
+
+double expected_mach(const AccuracyScene& scene, double spacing, double time_step) {
+  return std::sqrt(3.) * std::max(scene.velocity, scene.grain_speed) * time_step / spacing;
+}
+
+AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, double time_step,
+                               lbm::CollisionOperator collision) {
+  AccuracyErrors errors;
+  if (scene.fine_diameter > 0) errors.resolution = expected_permeability_error(scene.fine_diameter / spacing);
+  errors.compressibility = squared(expected_mach(scene, spacing, time_step));
+  errors.density = 1.5 * scene.pressure_range / scene.density * squared(time_step / spacing);
+  const bool comoving = collision == lbm::CollisionOperator::trt_comoving;
+  const double fast = scene.grain_speed * spacing / scene.viscosity;
+  errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
+  if (scene.response_time > 0) errors.coupling = 0.5 * time_step / scene.response_time;
+  return errors;
 }
 
 double fitting_spacing(const Vec3& size, double most) {
@@ -100,9 +114,9 @@ AccuracyChoice choice_with_cells(double cells, double accuracy, const AccuracySc
                                   scene.fine_diameter / cells),
                       "round its sides to a common length"});
   choice.cells = scene.fine_diameter / choice.spacing;
-  choice.errors.resolution = expected_permeability_error(choice.cells);
   set_time_step(choice, accuracy, scene);
   set_operators(choice, accuracy, scene);
+  choice.errors = expected_errors(scene, choice.spacing, choice.time_step, choice.collision);
   constexpr double kFloatCost = 0.6, kComovingCost = 1.18;
   choice.cost = 1 / (choice.spacing * choice.spacing * choice.spacing * choice.time_step);
   if (choice.precision == lbm::Precision::float_precision) choice.cost *= kFloatCost;
@@ -112,9 +126,11 @@ AccuracyChoice choice_with_cells(double cells, double accuracy, const AccuracySc
 
 AccuracyChoice choose_for_accuracy(double accuracy, const AccuracyScene& scene) {
   if (!(accuracy >= kFinest && accuracy <= kCoarsest))
-    throw_user_error({kWho, "accuracy", fmt::format("{:g} %", 100 * accuracy),
-                      fmt::format("be {:g} to {:g} %", 100 * kFinest, 100 * kCoarsest),
-                      "finer, no packing is known well enough to tell; coarser, grains are not resolved"});
+    throw_user_error(
+        {kWho, "accuracy", fmt::format("{:g} %", 100 * accuracy),
+         fmt::format("be {:g} to {:g} %", 100 * kFinest, 100 * kCoarsest),
+         "finer, no packing is known well enough to tell; coarser, take `lbm method averaged`, which errs by "
+         "a third or less for a bed as a whole (docs/results/price_of_methods.md)"});
   if (!(scene.fine_diameter > 0))
     throw_user_error({kWho, "grains", "none", "be there before: cells are counted a grain",
                       "without grains write `lbm lattice` yourself"});

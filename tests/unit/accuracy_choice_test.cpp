@@ -90,6 +90,28 @@ TEST_CASE("A spacing that fits is the largest up to the one wanted") {
   CHECK(fitting_spacing({1, 1.234567, 1}, 0.11) == 0);
 }
 
+TEST_CASE("What a lattice errs by is the same, chosen or written") {
+  AccuracyScene scene;
+  scene.size = Vec3(4e-3, 4e-3, 8e-3);
+  scene.fine_diameter = 5e-4;
+  scene.velocity = 0.02;
+  scene.grain_speed = 0.01;
+  scene.pressure_range = 40;
+  scene.response_time = 2e-3;
+  const AccuracyChoice choice = choose_for_accuracy(0.05, scene);
+  const AccuracyErrors errors = expected_errors(scene, choice.spacing, choice.time_step, choice.collision);
+  CHECK(errors.together() == choice.errors.together());
+  CHECK(errors.compressibility == Approx(3 * std::pow(0.02 * choice.time_step / choice.spacing, 2)));
+  // Pressures are c^2/3 times densities: a half of 40 Pa over 1000 kg/m^3 (dx/dt)^2/3.
+  CHECK(errors.density == Approx(0.5 * 40 * 3 / 1000 * std::pow(choice.time_step / choice.spacing, 2)));
+  CHECK(errors.coupling == Approx(0.5 * choice.time_step / 2e-3));
+  // Half of the spacing: a quarter of the error of carried water, four times that of the density at one step.
+  const AccuracyErrors finer = expected_errors(scene, choice.spacing / 2, choice.time_step, choice.collision);
+  CHECK(finer.motion == Approx(errors.motion / 4));
+  CHECK(finer.density == Approx(4 * errors.density));
+  CHECK(finer.resolution < errors.resolution);
+}
+
 TEST_CASE("A sphere falls by Stokes' law when small, by Newton's when large") {
   const double g = 9.81, nu = 1e-6;
   CHECK(free_settling_velocity(1e-5, 2.65, g, nu) == Approx(1.65 * g * 1e-10 / (18 * nu)).epsilon(0.01));

@@ -15,6 +15,7 @@ struct AccuracyScene {
   double pressure_range = 0;  ///< largest difference of pressures in the water, Pa
   double density = 1000;      ///< kg/m³
   double viscosity = 1e-6;    ///< kinematic, m²/s
+  double response_time = 0;   ///< in which the smallest grain follows its water, s; 0 where none moves
   Vec3 size = Vec3::Zero();   ///< of the fluid's box, m
 };
 
@@ -24,9 +25,18 @@ struct AccuracyErrors {
   double compressibility = 0;  ///< Mach number squared
   double density = 0;          ///< half of the difference of densities that the pressures make
   double motion = 0;           ///< drag of grains that carry their water along
+  /// While speeds change: grains feel the water of half a step ago, as a share of the smallest one's
+  /// response. No part of `together`, for nothing is left of it once the flow is steady.
+  double coupling = 0;
   /// Of independent sources.
   double together() const;
 };
+
+/// What a lattice of these cells and steps is expected to err by.
+AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, double time_step,
+                               lbm::CollisionOperator collision);
+/// sqrt(3) times the cells that the fastest of water and grains passes in a step.
+double expected_mach(const AccuracyScene& scene, double spacing, double time_step);
 
 struct AccuracyChoice {
   double cells = 0;  ///< a fine diameter
