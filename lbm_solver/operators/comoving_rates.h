@@ -16,8 +16,8 @@ namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 ///   M_ab   = rho u_a u_b + (u_a F_b + u_b F_a)/2 + (1 - even) Q_ab
 ///   M_abb  = (j_a + F_a/2)/3 + (1 - even) T + d K
 ///   M_aabb = (1 - even) M_aabb + even equilibrium + (1 - even/2) source + 2 d (u_a K_abb + u_b K_aab).
-/// Made in this way from the 19 moments it takes two thirds of the arithmetic of TRT with changes added pair
-/// by pair.
+/// Made in this way from the 19 moments it takes three quarters of the arithmetic of TRT with changes added
+/// pair by pair.
 template <bool kForced, bool kEddy>
 struct ComovingRates {
   static constexpr bool kKeepsSums = true;

@@ -25,7 +25,8 @@ template <class T, class Populations>
 }
 
 /// Collides one pack of cells, `lanes` of which lie in the row. g: populations less weights, changed in
-/// place.
+/// place. Operator::kKeepsSums: it needs most of the sums of add_up again, which then stay in registers; for
+/// the others reading the populations twice is cheaper.
 template <class Operator, class Solid, bool kForced, class T, class Populations>
 [[gnu::always_inline]] inline void collide_pack(Populations& g, std::ptrdiff_t cells, int lanes,
                                                 const KernelCall<T>& call) {
