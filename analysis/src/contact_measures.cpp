@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/constraint_ratio.h"
@@ -180,12 +179,6 @@ Record ContactMeasurer::measure(const Snapshot& snapshot) {
                {"normal_force_variation", forces_.coefficient_of_variation},
                {"force_tail_exponent", forces_.tail_exponent}});
   return record;
-}
-
-std::optional<double> value_of(const Record& record, const char* name) {
-  for (const Entry& entry : record)
-    if (std::strcmp(entry.name, name) == 0) return entry.value;
-  return std::nullopt;
 }
 
 double split_in_the_gap(const Packing& packing, const std::string& who) {

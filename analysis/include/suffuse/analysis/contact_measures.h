@@ -3,18 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "suffuse/analysis/record.h"
 #include "suffuse/analysis/snapshot.h"
 #include "suffuse/micromechanics/force_distribution.h"
 
 namespace suffuse::analysis {
-
-/// A number with the name of its column, unit included; none where it is not defined (a share of nothing, β
-/// of an isotropic state, fines without a split).
-struct Entry {
-  const char* name = "";
-  std::optional<double> value;
-};
-using Record = std::vector<Entry>;
 
 /// Which contacts are strong: those with f_N of at least …
 enum class StrongThreshold {
@@ -55,9 +48,6 @@ class ContactMeasurer {
   std::optional<double> frozen_;
   micromechanics::ForceDistribution forces_;
 };
-
-/// The number of a column, none if it is not defined or not there.
-std::optional<double> value_of(const Record& record, const char* name);
 
 /// The geometric mean of the two neighbouring diameters of a packing that are furthest apart as a ratio, m: a
 /// split in the gap of a gap-graded soil. Throws UserError where the widest ratio is below 1.3: no gap.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "suffuse/analysis/contact_measures.h"
+#include "suffuse/analysis/record.h"
 #include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
