@@ -7,19 +7,19 @@
 #include <exception>
 #include <string>
 
-#include "commands/constriction_command.h"
-#include "commands/contacts_command.h"
-#include "commands/fluidisation_command.h"
-#include "commands/grading_command.h"
-#include "commands/hydraulic_command.h"
-#include "commands/lifting_command.h"
-#include "commands/reproduce_command.h"
-#include "commands/rose_command.h"
-#include "commands/sample_command.h"
-#include "commands/shear_command.h"
-#include "commands/verdict_command.h"
+#include "contacts/contacts_command.h"
+#include "contacts/rose_command.h"
+#include "grading/constriction_command.h"
+#include "grading/grading_command.h"
+#include "grading/hydraulic_command.h"
+#include "grading/sample_command.h"
 #include "suffuse/common/command_line_help.h"
 #include "suffuse/common/error.h"
+#include "verdict/fluidisation_command.h"
+#include "verdict/lifting_command.h"
+#include "verdict/reproduce_command.h"
+#include "verdict/shear_command.h"
+#include "verdict/verdict_command.h"
 
 namespace {
 

@@ -104,15 +104,15 @@ void reverse_if_due(const Settings& s, const Measurement& m, State& state) {
 }
 
 void shear(const Settings& s, const Measurement& m, State& state) {
-  if (s.path == Path::kCyclic) reverse_if_due(s, m, state);
+  if (s.path == Path::cyclic) reverse_if_due(s, m, state);
   const double axial = axial_rate(s, m, state);
   state.rate[s.axis] = axial;
-  if (s.path == Path::kConstantVolume) {
+  if (s.path == Path::constant_volume) {
     for (int i = 0; i < 3; ++i)
       if (i != s.axis) state.rate[i] = -0.5 * axial;
     return;
   }
-  const bool constant_mean = s.path == Path::kConstantMean;
+  const bool constant_mean = s.path == Path::constant_mean;
   const double target = constant_mean ? 0.5 * (3 * s.target - m.stress[s.axis]) : s.target;
   const double axial_stress_rate = (m.stress[s.axis] - state.last_stress[s.axis]) / m.interval;
   // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
@@ -124,12 +124,12 @@ void shear(const Settings& s, const Measurement& m, State& state) {
 bool reached(const Settings& s, const Measurement& m) {
   const double band = s.tolerance * s.target;
   if (std::abs(mean_stress(m.stress) - s.target) > band) return false;
-  if (s.path == Path::kIsotropic || s.path == Path::kConstantMean) return true;
+  if (s.path == Path::isotropic || s.path == Path::constant_mean) return true;
   return (m.stress.array() - s.target).abs().maxCoeff() <= band;
 }
 
 void begin_holding(const Settings& s, const Measurement& m, State& state) {
-  state.phase = Phase::kHolding;
+  state.phase = Phase::holding;
   state.reference_lengths = m.lengths;
   state.axial_direction = s.direction;
   state.axial_ramp = 0;
@@ -145,15 +145,15 @@ void note_peak(const Settings& s, const Measurement& m, State& state) {
 
 bool stop_met(const Settings& s, const Measurement& m, const State& state) {
   switch (s.stop) {
-    case Stop::kNone:
+    case Stop::none:
       return false;
-    case Stop::kTarget:
+    case Stop::target:
       return true;  // holding has begun
-    case Stop::kStatic:
+    case Stop::static_state:
       return m.is_static;
-    case Stop::kAxialStrain:
+    case Stop::axial_strain:
       return std::abs(axial_strain(state, m.lengths, s.axis)) >= s.stop_value;
-    case Stop::kCycles:
+    case Stop::cycles:
       return static_cast<double>(state.reversals) >= 2 * s.stop_value;
   }
   return false;
@@ -187,13 +187,13 @@ double undrained_rate_limit(const Settings& s, double inertial_size, double larg
 }
 
 double axial_rate_limit(const Settings& s, const State& state, const Measurement& m) {
-  return s.path == Path::kConstantVolume
+  return s.path == Path::constant_volume
              ? undrained_rate_limit(s, m.inertial_size, state.largest_stress, mean_stress(m.stress))
              : rate_limit(s, m.inertial_size, s.target);
 }
 
 std::int64_t control_interval(const Settings& s, std::int64_t longest, double steps_allowed) {
-  if (s.path == Path::kIsotropic || s.path == Path::kConstantVolume) return longest;
+  if (s.path == Path::isotropic || s.path == Path::constant_volume) return longest;
   std::int64_t interval = longest;
   for (std::int64_t parts = 1; parts <= std::min(longest, kMostFrequent); ++parts) {
     if (longest % parts != 0) continue;
@@ -204,30 +204,30 @@ std::int64_t control_interval(const Settings& s, std::int64_t longest, double st
 }
 
 double axial_strain(const State& state, const Vec3& lengths, int axis) {
-  if (state.phase == Phase::kApproaching) return 0;
+  if (state.phase == Phase::approaching) return 0;
   return 1 - lengths[axis] / state.reference_lengths[axis];
 }
 
 double volumetric_strain(const State& state, const Vec3& lengths) {
-  if (state.phase == Phase::kApproaching) return 0;
+  if (state.phase == Phase::approaching) return 0;
   return 1 - lengths.prod() / state.reference_lengths.prod();
 }
 
 State control(const Settings& s, const State& before, const Measurement& m) {
   State state = before;
-  if (state.phase == Phase::kApproaching && (s.path == Path::kConstantVolume || reached(s, m)))
+  if (state.phase == Phase::approaching && (s.path == Path::constant_volume || reached(s, m)))
     begin_holding(s, m, state);
-  else if (state.phase == Phase::kHolding && stop_met(s, m, state))
-    state.phase = Phase::kDone;
+  else if (state.phase == Phase::holding && stop_met(s, m, state))
+    state.phase = Phase::done;
 
-  const bool shears = s.path != Path::kIsotropic && state.phase == Phase::kHolding;
+  const bool shears = s.path != Path::isotropic && state.phase == Phase::holding;
   if (shears) {
     note_peak(s, m, state);
     shear(s, m, state);
-  } else if (s.path == Path::kIsotropic ||
-             (s.path == Path::kConstantMean && state.phase == Phase::kApproaching)) {
+  } else if (s.path == Path::isotropic ||
+             (s.path == Path::constant_mean && state.phase == Phase::approaching)) {
     drive_isotropic(s, m, state);
-  } else if (state.phase == Phase::kApproaching) {
+  } else if (state.phase == Phase::approaching) {
     drive_to_cell_pressure(s, m, state);
   } else {
     state.rate.setZero();  // sheared to its end: strains stay

@@ -9,19 +9,19 @@
 namespace suffuse::servo {
 
 enum class Path {
-  kIsotropic,       ///< p' to the target, equal rates on the three axes (Appendix A)
-  kConstantMean,    ///< axial strain rate given, lateral stresses ½(3p' − σ_axial) (eqs 5.1–5.4)
-  kTriaxial,        ///< axial strain rate given, lateral stresses at the cell pressure
-  kCyclic,          ///< triaxial, the axial direction reverses at two bounds of the deviator
-  kConstantVolume,  ///< axial strain rate given, lateral rates −½ of it (undrained)
+  isotropic,        ///< p' to the target, equal rates on the three axes (Appendix A)
+  constant_mean,    ///< axial strain rate given, lateral stresses ½(3p' − σ_axial) (eqs 5.1–5.4)
+  triaxial,         ///< axial strain rate given, lateral stresses at the cell pressure
+  cyclic,           ///< triaxial, the axial direction reverses at two bounds of the deviator
+  constant_volume,  ///< axial strain rate given, lateral rates −½ of it (undrained)
 };
 
-enum class Phase { kApproaching = 0, kHolding = 1, kDone = 2 };
+enum class Phase { approaching = 0, holding = 1, done = 2 };
 
-enum class Stop { kNone, kTarget, kStatic, kAxialStrain, kCycles };
+enum class Stop { none, target, static_state, axial_strain, cycles };
 
 struct Settings {
-  Path path = Path::kIsotropic;
+  Path path = Path::isotropic;
   double target = 0;        ///< p' or cell pressure, Pa; unused for constant volume
   int axis = 2;             ///< axial direction, 0..2
   double direction = 1;     ///< +1 axial compression, −1 extension
@@ -34,7 +34,7 @@ struct Settings {
   double approach_share = 0.01;  ///< of the target, up to which p' may rise faster than inertial_number says
   double tolerance = 0.005;      ///< relative, of the controlled stress, and of p' and Z for `static`
   double unbalanced = 0.01;      ///< largest unbalanced-force ratio of a static sample; 0: Z decides instead
-  Stop stop = Stop::kNone;
+  Stop stop = Stop::none;
   double stop_value = 0;  ///< axial strain, or number of cycles
 };
 
@@ -61,7 +61,7 @@ struct State {
   double peak_deviator = 0;   ///< largest |q| while shearing, Pa
   double strain_at_peak = 0;  ///< axial strain there
   double largest_stress = 0;  ///< largest p' of a constant-volume path, Pa
-  Phase phase = Phase::kApproaching;
+  Phase phase = Phase::approaching;
 };
 
 /// p' = (σ_x + σ_y + σ_z)/3 (eq 5.1).

@@ -110,9 +110,9 @@ void FixStressServo::init() {
   memory_.grains.density = grains.mean_density;
   memory_.grains.solid_volume = grains.solid_volume;
   memory_.grains.diameter = arguments_.diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::kMass)
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::mass)
     memory_.grains.diameter = grains.mass_mean_diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::kNumber)
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::number)
     memory_.grains.diameter = grains.number_mean_diameter;
   if (!arguments_.approach_given)
     arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
@@ -219,14 +219,14 @@ void FixStressServo::control() {
   m.bulk_stiffness = memory_.network.bulk_stiffness;
   m.inertial_size = inertial_size();
   m.relaxation_time = kRelaxationIntervals * m.interval;
-  m.is_static = memory_.is_static && memory_.state.phase == servo::Phase::kHolding;
+  m.is_static = memory_.is_static && memory_.state.phase == servo::Phase::holding;
   const servo::Phase before = memory_.state.phase;
   memory_.state = servo::control(arguments_.settings, memory_.state, m);
-  if (memory_.state.phase == servo::Phase::kDone && before != servo::Phase::kDone) {
+  if (memory_.state.phase == servo::Phase::done && before != servo::Phase::done) {
     suffuse::tell(lmp, suffuse::describe_end(id, arguments_.settings.stop, standing()));
     announce_stop();
   }
-  if (rate_note_given_ || memory_.state.phase != servo::Phase::kHolding) return;
+  if (rate_note_given_ || memory_.state.phase != servo::Phase::holding) return;
   const double quasi_static = servo::axial_rate_limit(arguments_.settings, memory_.state, m);
   if (arguments_.settings.axial_rate <= quasi_static) return;
   rate_note_given_ = true;
@@ -361,7 +361,7 @@ void FixStressServo::restart(char* buffer) {
   }
   memory_ = suffuse::unpacked(record.values);
   std::swap(memory_.grains, restored_grains_);  // taken up in init if they are the same grains
-  if (memory_.state.phase == servo::Phase::kDone)
-    memory_.state.phase = servo::Phase::kHolding;  // to an end further on
+  if (memory_.state.phase == servo::Phase::done)
+    memory_.state.phase = servo::Phase::holding;  // to an end further on
   restored_ = true;
 }

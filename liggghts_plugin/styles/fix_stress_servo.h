@@ -39,7 +39,7 @@ class FixStressServo : public Fix {
   void restart(char* buffer) override;
 
   /// On its way to its target, which it has not reached before.
-  bool approaching() const { return memory_.state.phase == suffuse::servo::Phase::kApproaching; }
+  bool approaching() const { return memory_.state.phase == suffuse::servo::Phase::approaching; }
 
  private:
   void set_static_window();

@@ -19,7 +19,7 @@ int axis_index(const std::string& who, const std::string& word) {
 }
 
 void read_shear_path(ArgumentReader& reader, const std::string& name, servo::Settings& settings) {
-  if (settings.path != servo::Path::kConstantVolume) settings.target = reader.positive("target stress");
+  if (settings.path != servo::Path::constant_volume) settings.target = reader.positive("target stress");
   bool bounds_given = false, direction_given = false;
   const auto set_direction = [&](int direction) {
     if (direction_given)
@@ -45,7 +45,7 @@ void read_shear_path(ArgumentReader& reader, const std::string& name, servo::Set
       break;
     }
   }
-  if (settings.path != servo::Path::kCyclic) return;
+  if (settings.path != servo::Path::cyclic) return;
   if (!bounds_given || settings.deviator_low >= settings.deviator_high)
     throw_user_error(
         {reader.who(), "deviator",
@@ -57,18 +57,18 @@ void read_path(ArgumentReader& reader, servo::Settings& settings) {
   constexpr const char* kPaths = "isotropic, constant_p, triaxial, cyclic, constant_volume";
   const std::string name = reader.word(fmt::format("stress path ({})", kPaths));
   if (name == "isotropic") {
-    settings.path = servo::Path::kIsotropic;
+    settings.path = servo::Path::isotropic;
     settings.target = reader.positive("target mean stress");
     return;
   }
   if (name == "constant_p")
-    settings.path = servo::Path::kConstantMean;
+    settings.path = servo::Path::constant_mean;
   else if (name == "triaxial")
-    settings.path = servo::Path::kTriaxial;
+    settings.path = servo::Path::triaxial;
   else if (name == "cyclic")
-    settings.path = servo::Path::kCyclic;
+    settings.path = servo::Path::cyclic;
   else if (name == "constant_volume")
-    settings.path = servo::Path::kConstantVolume;
+    settings.path = servo::Path::constant_volume;
   else
     throw_user_error({reader.who(), "stress path", name, fmt::format("be one of: {}", kPaths), ""});
   read_shear_path(reader, name, settings);
@@ -76,16 +76,16 @@ void read_path(ArgumentReader& reader, servo::Settings& settings) {
 
 void read_stop(ArgumentReader& reader, servo::Settings& settings) {
   const std::string condition = reader.word("stop condition (target, static, axial_strain or cycles)");
-  const bool shears = settings.path != servo::Path::kIsotropic;
+  const bool shears = settings.path != servo::Path::isotropic;
   if (condition == "target") {
-    settings.stop = servo::Stop::kTarget;
+    settings.stop = servo::Stop::target;
   } else if (condition == "static") {
-    settings.stop = servo::Stop::kStatic;
+    settings.stop = servo::Stop::static_state;
     if (shears)
       throw_user_error({reader.who(), "until", "static", "go with isotropic",
                         "a sheared sample is never static; use axial_strain"});
   } else if (condition == "axial_strain") {
-    settings.stop = servo::Stop::kAxialStrain;
+    settings.stop = servo::Stop::axial_strain;
     settings.stop_value = reader.positive("axial_strain");
     if (!shears)
       throw_user_error({reader.who(), "until", condition, "go with a shear path", "use `until static`"});
@@ -93,9 +93,9 @@ void read_stop(ArgumentReader& reader, servo::Settings& settings) {
       throw_user_error({reader.who(), "axial_strain", fmt::format("{:g}", settings.stop_value), "be < 1",
                         "it is a fraction: 15 % is 0.15"});
   } else if (condition == "cycles") {
-    settings.stop = servo::Stop::kCycles;
+    settings.stop = servo::Stop::cycles;
     settings.stop_value = static_cast<double>(reader.positive_integer("cycles"));
-    if (settings.path != servo::Path::kCyclic)
+    if (settings.path != servo::Path::cyclic)
       throw_user_error({reader.who(), "until", condition, "go with cyclic", ""});
   } else {
     throw_user_error({reader.who(), "until", condition, "be target, static, axial_strain or cycles", ""});
@@ -119,11 +119,11 @@ void read_option(ArgumentReader& reader, ServoArguments& arguments) {
     arguments.settings.inertial_number = share(reader, "inertial_number");
   } else if (key == "diameter") {
     if (reader.accept("mass")) {
-      arguments.diameter_kind = MeanDiameter::kMass;
+      arguments.diameter_kind = MeanDiameter::mass;
     } else if (reader.accept("number")) {
-      arguments.diameter_kind = MeanDiameter::kNumber;
+      arguments.diameter_kind = MeanDiameter::number;
     } else if (reader.next_is_number()) {
-      arguments.diameter_kind = MeanDiameter::kGiven;
+      arguments.diameter_kind = MeanDiameter::given;
       arguments.diameter = reader.positive("diameter");
     } else {
       throw_user_error({reader.who(), "diameter", reader.word("diameter (mass, number or a value in m)"),

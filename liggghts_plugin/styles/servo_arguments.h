@@ -7,7 +7,7 @@
 
 namespace suffuse {
 
-enum class MeanDiameter { kMass, kNumber, kGiven };
+enum class MeanDiameter { mass, number, given };
 
 /// What the words of a `fix stress/servo` line say.
 struct ServoArguments {
@@ -17,7 +17,7 @@ struct ServoArguments {
   bool approach_given = false;    ///< else settings.approach_share follows the grains' friction
   std::int64_t window_steps = 0;  ///< of `static`; 0: from the Rayleigh time
   double progress_every = 30;     ///< s of wall clock between progress lines; 0: none
-  MeanDiameter diameter_kind = MeanDiameter::kMass;
+  MeanDiameter diameter_kind = MeanDiameter::mass;
   double diameter = 0;  ///< m, if given
 };
 

@@ -20,15 +20,15 @@ double ServoProgress::minutes_left(const servo::Settings& settings, const ServoS
   if (steps <= 0) return -1;
   const double by_run = since / steps * static_cast<double>(now.last_step - now.step);
   double by_goal = by_run;
-  if (now.phase == servo::Phase::kApproaching) {
+  if (now.phase == servo::Phase::approaching) {
     const double gained = now.mean_stress - last_.mean_stress;
     if (gained <= 0) return -1;
     by_goal = since * (settings.target - now.mean_stress) / gained;
-  } else if (settings.stop == servo::Stop::kAxialStrain) {
+  } else if (settings.stop == servo::Stop::axial_strain) {
     const double gained = std::abs(now.strain) - std::abs(last_.strain);
     if (gained <= 0) return -1;
     by_goal = since * (settings.stop_value - std::abs(now.strain)) / gained;
-  } else if (settings.stop == servo::Stop::kStatic) {
+  } else if (settings.stop == servo::Stop::static_state) {
     by_goal = since / steps * now.static_steps;
   }
   return std::max(0.0, std::min(by_goal, by_run)) / 60;

@@ -12,7 +12,7 @@ namespace suffuse {
 /// Where a servo stands.
 struct ServoStanding {
   std::int64_t step = 0, last_step = 0;  ///< now, and of the run
-  servo::Phase phase = servo::Phase::kApproaching;
+  servo::Phase phase = servo::Phase::approaching;
   double mean_stress = 0, deviator = 0;  ///< Pa
   double void_ratio = 0, coordination = 0, strain = 0, inertial_number = 0, unbalanced = 0;
   double static_steps = 0;  ///< steps until `static` may be met

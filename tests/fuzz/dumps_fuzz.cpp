@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "contacts/contact_measures.h"
 #include "fuzz_input.h"
-#include "suffuse/analysis/contact_measures.h"
 
 using namespace suffuse;
 

@@ -1,7 +1,7 @@
 // The CSV file of an upward-flow run, and what is measured of it.
 
 #include "fuzz_input.h"
-#include "suffuse/analysis/flow_record.h"
+#include "verdict/flow_record.h"
 
 using namespace suffuse;
 

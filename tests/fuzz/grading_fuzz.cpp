@@ -1,7 +1,7 @@
 // A grading as a CSV file, and what is made of it: criteria, and classes of grains.
 
 #include "fuzz_input.h"
-#include "suffuse/analysis/grading_file.h"
+#include "grading/grading_file.h"
 #include "suffuse/micromechanics/grain_sample.h"
 #include "suffuse/micromechanics/internal_stability.h"
 

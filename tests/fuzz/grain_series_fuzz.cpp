@@ -1,7 +1,7 @@
 // An HDF5 file of grains and contacts, and what is measured of its snapshots.
 
+#include "contacts/contact_measures.h"
 #include "hdf5_tree.h"
-#include "suffuse/analysis/contact_measures.h"
 
 using namespace suffuse;
 

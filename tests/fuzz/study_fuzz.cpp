@@ -1,8 +1,8 @@
 // A study's TOML file. Nothing of it is run.
 
 #include "fuzz_input.h"
-#include "suffuse/analysis/study_cases.h"
-#include "suffuse/analysis/study_file.h"
+#include "suffuse/study/study_cases.h"
+#include "suffuse/study/study_file.h"
 
 using namespace suffuse;
 

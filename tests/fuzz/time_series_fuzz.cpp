@@ -3,8 +3,8 @@
 #include <mpi.h>
 
 #include "fuzz_input.h"
-#include "suffuse/analysis/flow_record.h"
 #include "suffuse/common/time_series_file.h"
+#include "verdict/flow_record.h"
 
 using namespace suffuse;
 

@@ -7,10 +7,10 @@
 #include <fstream>
 #include <string>
 
-#include "suffuse/analysis/csv_file.h"
-#include "suffuse/analysis/decimal_mark.h"
-#include "suffuse/analysis/grading_file.h"
-#include "suffuse/analysis/sieve_columns.h"
+#include "files/csv_file.h"
+#include "files/decimal_mark.h"
+#include "grading/grading_file.h"
+#include "grading/sieve_columns.h"
 #include "user_error_message.h"
 
 using namespace suffuse;

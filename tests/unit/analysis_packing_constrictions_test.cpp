@@ -3,7 +3,7 @@
 #include <random>
 #include <vector>
 
-#include "suffuse/analysis/packing_constrictions.h"
+#include "grading/packing_constrictions.h"
 #include "suffuse/common/error.h"
 
 using namespace suffuse;

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "suffuse/analysis/number_parser.h"
+#include "files/number_parser.h"
 
 using suffuse::analysis::parse_integer;
 using suffuse::analysis::parse_number;

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <functional>
 
+#include "contacts/contact_measures.h"
+#include "files/record_table.h"
 #include "hand_packings.h"
-#include "suffuse/analysis/contact_measures.h"
-#include "suffuse/analysis/record_table.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
 #include "user_error_message.h"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 
-#include "suffuse/analysis/csv_cell.h"
-#include "suffuse/analysis/grid_convergence.h"
+#include "files/csv_cell.h"
+#include "suffuse/study/grid_convergence.h"
 
 using namespace suffuse::analysis;
 using Kind = GridConvergence::Kind;

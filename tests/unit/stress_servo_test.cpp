@@ -55,11 +55,11 @@ struct Run {
   }
   void step() {
     state = control(settings, state, measure());
-    sample.strain_by(state.rate, interval, state.phase == Phase::kHolding && sample.dilation != 0);
+    sample.strain_by(state.rate, interval, state.phase == Phase::holding && sample.dilation != 0);
   }
   void until_holding() {
-    for (int i = 0; i < 2000000 && state.phase == Phase::kApproaching; ++i) step();
-    REQUIRE(state.phase == Phase::kHolding);
+    for (int i = 0; i < 2000000 && state.phase == Phase::approaching; ++i) step();
+    REQUIRE(state.phase == Phase::holding);
   }
 };
 
@@ -82,7 +82,7 @@ Run shear_run(Path path) {
 TEST_CASE("the isotropic servo reaches its target without overshoot and holds it within 0.5 %") {
   Run run = isotropic_run();
   double highest = 0;
-  while (run.state.phase == Phase::kApproaching) {
+  while (run.state.phase == Phase::approaching) {
     run.step();
     highest = std::max(highest, mean_stress(run.sample.stress()));
   }
@@ -97,7 +97,7 @@ TEST_CASE("the isotropic servo reaches its target without overshoot and holds it
 TEST_CASE("strain rates stay below the inertial number's limit once the sample carries stress") {
   Run run = isotropic_run();
   const double limit = run.settings.inertial_number * std::sqrt(200e3) / run.inertial_size;
-  for (int i = 0; i < 200000 && run.state.phase == Phase::kApproaching; ++i) {
+  for (int i = 0; i < 200000 && run.state.phase == Phase::approaching; ++i) {
     const double p = mean_stress(run.sample.stress());
     run.step();
     REQUIRE(run.state.rate.cwiseAbs().maxCoeff() <= run.settings.max_rate);
@@ -126,18 +126,18 @@ TEST_CASE("an unloaded sample is compressed at max_rate, a loaded one at the qua
 
 TEST_CASE("constant mean stress is held within 0.5 % while the sample dilates to 15 % axial strain") {
   Run run = isotropic_run();
-  run.settings.path = Path::kConstantMean;
+  run.settings.path = Path::constant_mean;
   run.settings.axial_rate = 0.5;
-  run.settings.stop = Stop::kAxialStrain;
+  run.settings.stop = Stop::axial_strain;
   run.settings.stop_value = 0.15;
   run.sample.dilation = 0.6;
   run.until_holding();
   double worst = 0;
-  for (int i = 0; i < 1000000 && run.state.phase == Phase::kHolding; ++i) {
+  for (int i = 0; i < 1000000 && run.state.phase == Phase::holding; ++i) {
     run.step();
     worst = std::max(worst, std::abs(mean_stress(run.sample.stress()) / 200e3 - 1));
   }
-  CHECK(run.state.phase == Phase::kDone);
+  CHECK(run.state.phase == Phase::done);
   CHECK(axial_strain(run.state, run.sample.lengths(), 2) ==
         Approx(0.15).epsilon(1e-4));  // one control interval
   CHECK(worst < 0.005);
@@ -148,7 +148,7 @@ TEST_CASE("constant mean stress is held within 0.5 % while the sample dilates to
 TEST_CASE("triaxial compression and extension keep the lateral stresses at the cell pressure") {
   for (const double direction : {1.0, -1.0}) {
     Run run = isotropic_run();
-    run.settings.path = Path::kTriaxial;
+    run.settings.path = Path::triaxial;
     run.settings.axis = 0;
     run.settings.direction = direction;
     run.settings.axial_rate = 0.02;  // 0.12 % in all: the elastic model stays in compression
@@ -164,21 +164,21 @@ TEST_CASE("triaxial compression and extension keep the lateral stresses at the c
 
 TEST_CASE("cyclic loading turns at both bounds of the deviator and counts its cycles") {
   Run run = isotropic_run();
-  run.settings.path = Path::kCyclic;
+  run.settings.path = Path::cyclic;
   run.settings.axial_rate = 0.2;
   run.settings.deviator_low = -20e3;
   run.settings.deviator_high = 40e3;
-  run.settings.stop = Stop::kCycles;
+  run.settings.stop = Stop::cycles;
   run.settings.stop_value = 3;
   run.until_holding();
   double lowest = 0, highest = 0;
-  for (int i = 0; i < 1000000 && run.state.phase == Phase::kHolding; ++i) {
+  for (int i = 0; i < 1000000 && run.state.phase == Phase::holding; ++i) {
     run.step();
     const double q = deviatoric_stress(run.sample.stress(), 2);
     lowest = std::min(lowest, q);
     highest = std::max(highest, q);
   }
-  CHECK(run.state.phase == Phase::kDone);
+  CHECK(run.state.phase == Phase::done);
   CHECK(run.state.reversals == 6);
   // One control interval at 0.2 1/s strains by 6e-7: 60 Pa of deviator at a constrained modulus of 1e8 Pa.
   CHECK(lowest == Approx(-20e3).margin(100));
@@ -186,8 +186,8 @@ TEST_CASE("cyclic loading turns at both bounds of the deviator and counts its cy
 }
 
 TEST_CASE("constant volume keeps the volume to round-off") {
-  Run run = shear_run(Path::kTriaxial);  // brings the sample to 200 kPa
-  run.settings.path = Path::kConstantVolume;
+  Run run = shear_run(Path::triaxial);  // brings the sample to 200 kPa
+  run.settings.path = Path::constant_volume;
   run.settings.target = 0;
   run.state = State{};
   const double before = run.sample.lengths().prod();
@@ -198,7 +198,7 @@ TEST_CASE("constant volume keeps the volume to round-off") {
 
 TEST_CASE("a sample that liquefies at constant volume is sheared on, at a finite rate") {
   Settings settings;
-  settings.path = Path::kConstantVolume;
+  settings.path = Path::constant_volume;
   const double size = 0.66e-3 * std::sqrt(2650), at_largest = 7.9e-5 * std::sqrt(100e3) / size;
   CHECK(undrained_rate_limit(settings, size, 100e3, 100e3) == Approx(at_largest));
   CHECK(undrained_rate_limit(settings, size, 100e3, 25e3) == Approx(at_largest / 2));
@@ -212,13 +212,13 @@ TEST_CASE("a sample that liquefies at constant volume is sheared on, at a finite
 TEST_CASE(
     "control steps come as often as a collapse needs them, and no more often than a tenth of the interval") {
   Settings settings;
-  settings.path = Path::kConstantMean;
+  settings.path = Path::constant_mean;
   CHECK(control_interval(settings, 50, 119) == 50);
   CHECK(control_interval(settings, 50, 49) == 25);
   CHECK(control_interval(settings, 50, 18) == 10);
   CHECK(control_interval(settings, 50, 0.1) == 5);
   CHECK(control_interval(settings, 3, 1) == 1);
-  settings.path = Path::kIsotropic;
+  settings.path = Path::isotropic;
   CHECK(control_interval(settings, 50, 1) == 50);
 }
 

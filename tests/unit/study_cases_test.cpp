@@ -6,14 +6,14 @@
 #include <fstream>
 #include <functional>
 
-#include "suffuse/analysis/csv_cell.h"
-#include "suffuse/analysis/study_cases.h"
-#include "suffuse/analysis/study_launcher.h"
-#include "suffuse/analysis/study_record.h"
-#include "suffuse/analysis/study_table.h"
-#include "suffuse/analysis/trade_off.h"
+#include "files/csv_cell.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/script_variables.h"
+#include "suffuse/study/study_cases.h"
+#include "suffuse/study/study_launcher.h"
+#include "suffuse/study/study_record.h"
+#include "suffuse/study/study_table.h"
+#include "suffuse/study/trade_off.h"
 #include "user_error_message.h"
 
 using namespace suffuse;

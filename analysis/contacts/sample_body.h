@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "contacts/snapshot.h"
+#include "suffuse/micromechanics/sample_extent.h"
+
+namespace suffuse::analysis {
+
+/// Which body a snapshot's sample is: the box, the volume that was given, the bed or a region
+/// (micromechanics/sample_extent.h).
+class SampleBody {
+ public:
+  explicit SampleBody(const ReadSettings& settings) : settings_(&settings) {}
+
+  /// The volume of the sample from its grains and its box, where the box is known.
+  void set_volume(micromechanics::Packing& packing, const std::array<bool, 3>& periodic);
+  /// Leaves grains outside the region out, with their contacts.
+  void restrict_to_region(micromechanics::Packing& packing) const;
+  /// That a box was taken that is another body than the bed; empty if none was.
+  const std::string& note() const { return note_; }
+
+ private:
+  const ReadSettings* settings_;
+  std::array<bool, 3> periodic_{};
+  std::string note_;
+};
+
+/// Two notes on lines of their own, either of which may be empty.
+std::string both_notes(const std::string& first, const std::string& second);
+
+}  // namespace suffuse::analysis
