@@ -83,7 +83,7 @@ void LbmRun::check(long step) {
   const GuardReading now = reading(extremes_);
   fastest_grain_ = std::max(fastest_grain_, now.fastest_grain);
   near_limit_ = resolved && lbm::mach_of(extremes_) > kWarnShare * settings_.largest_mach;
-  const std::vector<std::string> warnings = guards_.look(now);
+  const std::vector<std::string> warnings = guards_.check(now);
   for (const std::string& line : warnings) say(line);
   follow_effects();
   if (warnings.empty()) return;
@@ -94,7 +94,7 @@ void LbmRun::check(long step) {
 /// After the guards: nothing is decided by a flow that is lost.
 void LbmRun::follow_effects() {
   report_.count(effects_, scene_.simulation.fluid().steps());
-  for (const std::string& line : effects_.look(scene_, extremes_)) say("lbm run: " + line);
+  for (const std::string& line : effects_.check(scene_, extremes_)) say("lbm run: " + line);
   MonitorReferences record;
   effects_.add_to(record);
   output_.set_effects(std::move(record));
@@ -195,7 +195,7 @@ void LbmRun::advance(long step, bool cut_short) {
   scene_.simulation.step(loads_asked_for);
 }
 
-void LbmRun::look(long step) {
+void LbmRun::check_due(long step) {
   const double before = MPI_Wtime();
   check(step);
   if (output_.due(step)) output_.write(scene_);

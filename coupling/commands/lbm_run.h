@@ -42,7 +42,7 @@ class LbmRun final : private lbm::RunSteps {
  private:
   void begin(const RunRequest& request, std::optional<double> continue_after);
   void advance(long step, bool cut_short) override;
-  void look(long step) override;
+  void check_due(long step) override;
   lbm::MeanMotion mean_motion() override;
   std::string details() override;
   int stop_requested() override;

@@ -105,14 +105,14 @@ std::vector<std::string> RunEffects::begin(const Scene& scene, const FilmForces:
   return lines;
 }
 
-std::vector<std::string> RunEffects::look(const Scene& scene, const lbm::FluidExtremes& extremes) {
+std::vector<std::string> RunEffects::check(const Scene& scene, const lbm::FluidExtremes& extremes) {
   CoupledSimulation& simulation = scene.simulation;
   const long step = simulation.fluid().steps();
   if (step % kEffectsEvery != 0 || step == looked_at_) return {};
   looked_at_ = step;
   const double water = simulation.units().velocity_to_si(extremes.largest_speed);
   std::vector<std::string> lines =
-      switches_->look(facts_now(scene.port, simulation, water), simulation.time_si());
+      switches_->check(facts_now(scene.port, simulation, water), simulation.time_si());
   if (lines.empty()) return lines;
   const EffectSettings effects = switches_->settings();
   simulation.set_effects(effects);

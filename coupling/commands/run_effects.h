@@ -41,7 +41,7 @@ class RunEffects {
   std::vector<std::string> begin(const Scene& scene, const FilmForces::Planes& planes);
 
   /// Within a run, after so many fluid steps. Collective.
-  std::vector<std::string> look(const Scene& scene, const lbm::FluidExtremes& extremes);
+  std::vector<std::string> check(const Scene& scene, const lbm::FluidExtremes& extremes);
 
   const std::vector<EffectState>& states() const { return switches_->states(); }
   const EffectState& state(const std::string& name) const { return switches_->state(name); }

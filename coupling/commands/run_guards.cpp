@@ -162,7 +162,7 @@ std::string RunGuards::place_of(const std::string& name) const {
   return fmt::format(", id {:.0f} at {}", worst.id, text_of(worst.at));
 }
 
-std::vector<std::string> RunGuards::look(const GuardReading& reading) {
+std::vector<std::string> RunGuards::check(const GuardReading& reading) {
   const double time = simulation_.time_si();
   lbm::require_stable(reading.fluid, simulation_.units(), time, reading.mach_limit, kWho);
   if (!std::isfinite(reading.fastest_grain)) throw_lost_grain(kWho, time);

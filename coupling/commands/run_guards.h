@@ -58,7 +58,7 @@ class RunGuards {
   void set_warned(std::set<std::string> warned) { warned_ = std::move(warned); }
 
   /// New warnings, a line each; LostRun beyond a limit. Collective.
-  std::vector<std::string> look(const GuardReading& reading);
+  std::vector<std::string> check(const GuardReading& reading);
 
  private:
   struct Finding {

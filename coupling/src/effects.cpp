@@ -209,7 +209,7 @@ std::vector<std::string> EffectSwitches::begin(const EffectFacts& facts, double 
   return {};
 }
 
-std::vector<std::string> EffectSwitches::look(const EffectFacts& facts, double time) {
+std::vector<std::string> EffectSwitches::check(const EffectFacts& facts, double time) {
   const std::vector<EffectState> before = states_;
   decide_scene(facts);
   decide_flow(facts);

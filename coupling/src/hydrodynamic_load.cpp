@@ -2,18 +2,19 @@
 
 namespace suffuse::coupling {
 
-Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
-                  const LoadRule& rule) {
+Load surface_load(const Load& exchange, const InternalFluidMomentum& internal, const GrainState& now,
+                  const GrainHistory& before, const LoadRule& rule) {
   if (!before.known) return exchange;
   Load load = exchange;
   const double mass = rule.fluid_density * sphere_volume(now.radius);
-  load.force +=
-      (mass * (now.velocity - before.velocity) + lead.momentum - before.lead.momentum) / rule.time_passed;
+  load.force += (mass * (now.velocity - before.velocity) + internal.momentum - before.internal.momentum) /
+                rule.time_passed;
   if (now.radius < rule.spacing) return load;
   const double moment =
       mass * (micromechanics::sphere_inertia(1, now.radius) + rule.spacing * rule.spacing / 6);
-  load.torque += (moment * (now.angular_velocity - before.angular_velocity) + lead.spin - before.lead.spin) /
-                 rule.time_passed;
+  load.torque +=
+      (moment * (now.angular_velocity - before.angular_velocity) + internal.spin - before.internal.spin) /
+      rule.time_passed;
   return load;
 }
 

@@ -19,12 +19,12 @@ GrainHistory history_of(const GrainRecord& record, bool follows) {
           vector_at(record.velocity, 0),
           vector_at(record.angular_velocity, 0),
           {vector_at(record.surface_force, 0), vector_at(record.surface_torque, 0)},
-          {vector_at(record.lead, 0), vector_at(record.spin_lead, 0)}};
+          {vector_at(record.internal_fluid_momentum, 0), vector_at(record.internal_fluid_spin, 0)}};
 }
 
 }  // namespace
 
-/// Exchange and lead of each sphere's cells on all ranks, summed at its owner, in SI.
+/// Exchange and internal momentum of each sphere's cells on all ranks, summed at its owner, in SI.
 void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
   const double newton = units_.force_to_si(Vec3(1, 0, 0))[0], metre = units_.spacing(),
                second = units_.time_step();
@@ -36,8 +36,8 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
     for (std::size_t a = 0; a < 3; ++a) {
       sums.force[a] = load.force[a] * newton;
       sums.torque[a] = load.torque[a] * newton * metre * arms;
-      sums.lead[a] = load.lead[a] * newton * second;
-      sums.spin_lead[a] = load.spin_lead[a] * newton * metre * second * arms;
+      sums.internal_fluid_momentum[a] = load.internal_fluid_momentum[a] * newton * second;
+      sums.internal_fluid_spin[a] = load.internal_fluid_spin[a] * newton * metre * second * arms;
     }
   }
   grains_.sum_over_copies(sums_);
@@ -58,12 +58,13 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
   for (int n = 0; n < grains.owned; ++n) {
     const GrainSums& sums = sums_[static_cast<std::size_t>(n)];
     const Load exchange{vector_at(sums.force, 0), vector_at(sums.torque, 0)};
-    const Lead lead{vector_at(sums.lead, 0), vector_at(sums.spin_lead, 0)};
+    const InternalFluidMomentum internal{vector_at(sums.internal_fluid_momentum, 0),
+                                         vector_at(sums.internal_fluid_spin, 0)};
     const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
                          vector_at(grains.angular_velocity, n)};
     GrainRecord& record = memory.record[n];
     const GrainHistory before = history_of(record, follows);
-    const Load surface = surface_load(exchange, lead, now, before, rule);
+    const Load surface = surface_load(exchange, internal, now, before, rule);
     const Load load = hydrodynamic_load(surface, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
@@ -82,8 +83,8 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     keep(record.angular_velocity, now.angular_velocity);
     keep(record.surface_force, surface.force);
     keep(record.surface_torque, surface.torque);
-    keep(record.lead, lead.momentum);
-    keep(record.spin_lead, lead.spin);
+    keep(record.internal_fluid_momentum, internal.momentum);
+    keep(record.internal_fluid_spin, internal.spin);
     record.known = 1;
   }
   loads_step_ = fluid_.steps();

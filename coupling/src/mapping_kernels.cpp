@@ -248,7 +248,8 @@ template <class T>
   const Four sums[3] = {sums_of(all.force[0], all.force[1], all.force[2], all.torque[0]),
                         sums_of(all.torque[1], all.torque[2], lead.force[0], lead.force[1]),
                         sums_of(lead.force[2], lead.torque[0], lead.torque[1], lead.torque[2])};
-  static_assert(sizeof(LatticeLoad) == sizeof sums, "force, torque, lead, spin_lead, nothing else");
+  static_assert(sizeof(LatticeLoad) == sizeof sums,
+                "force, torque, internal_fluid_momentum, internal_fluid_spin, nothing else");
   char* to = reinterpret_cast<char*>(&load_sum);
   for (int i = 0; i < 3; ++i) *reinterpret_cast<UnalignedFour*>(to + 32 * i) += sums[i];
   return entries;

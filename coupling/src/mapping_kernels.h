@@ -55,7 +55,7 @@ struct SliceNotes {
 /// map_slices adds the slices to the cells, one after the other.
 /// strengths_of leaves the cells alone; both write the slices' notes.
 /// sum_loads adds the exchange of the slices' cells to the spheres' `loads`, from these notes, and to
-/// `lead` and `spin_lead` what the rule makes of it.
+/// `internal_fluid_momentum` and `internal_fluid_spin` what the rule makes of it.
 #define SUFFUSE_DECLARE_MAPPING(instruction_set)                                               \
   namespace instruction_set {                                                                  \
   void map_slices(const SliceList& list, const FractionRule& rule, const CellArrays& arrays,   \

@@ -137,7 +137,7 @@ class FlowRun final : private RunSteps {
     fluid_.set_force(force_at(flow_, units_, time + units_.time_step()));
   }
 
-  void look(long step) override {
+  void check_due(long step) override {
     write_due(step - first_);
     if ((step - first_) % check_every_ == 0 || step == last_) report(step);
   }

@@ -6,7 +6,7 @@
 
 namespace suffuse::lbm {
 
-bool Steadiness::look(const MeanMotion& now) {
+bool Steadiness::check(const MeanMotion& now) {
   bool steady = false;
   if (last_) {
     const double speed = now.flow.norm(), change = (now.flow - last_->flow).norm();
@@ -34,10 +34,10 @@ RunEnd run_loop(RunSteps& steps, const RunPlan& plan, ProgressLine& progress) {
   bool found_steady = false;
   for (long step = plan.first + 1; step <= plan.last && !end.steady && end.stop == 0; ++step) {
     steps.advance(step, found_steady);
-    steps.look(step);
+    steps.check_due(step);
     end.steady = found_steady;
     const bool due = steadiness && (step - plan.first) % plan.steady_every == 0;
-    found_steady = due && steadiness->look(steps.mean_motion());
+    found_steady = due && steadiness->check(steps.mean_motion());
     if (!plan.ends_with_a_step) end.steady = found_steady;
     if ((step - plan.first) % plan.tell_every == 0 || step == plan.last)
       progress.update(static_cast<double>(step - plan.first) / static_cast<double>(plan.last - plan.first),

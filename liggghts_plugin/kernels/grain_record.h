@@ -16,7 +16,8 @@ struct GrainRecord {
   /// integrates applies these.
   double acceleration[3], angular_acceleration[3];
   double virtual_mass, virtual_moment;
-  double lead[3], spin_lead[3];  ///< of the fluid that it holds: kg m/s, kg m^2/s
+  /// Of the fluid that it holds, less that of a solid of its density: kg m/s, kg m^2/s.
+  double internal_fluid_momentum[3], internal_fluid_spin[3];
   double surveyed;        ///< 1 once the pores around the grain were surveyed for automatic coefficients
   double surveyed_at[3];  ///< where it was then, m
 };

@@ -74,7 +74,7 @@ GuardLimits limits_of(double share) {
 
 std::string why_ended(RunGuards& guards, const Bed& bed) {
   try {
-    (void)guards.look(bed.reading());
+    (void)guards.check(bed.reading());
   } catch (const LostRun& end) {
     return end.what();
   }
@@ -91,7 +91,7 @@ TEST_CASE("Budgets of water and grains close to round-off") {
   Bed bed(water(precision));
   RunGuards guards(limits_of(share), bed.simulation);
   bed.simulation.map();
-  CHECK(guards.look(bed.reading()).empty());
+  CHECK(guards.check(bed.reading()).empty());
   for (int n = 0; n < 3; ++n) {
     bed.steps(101);
     const GuardReading now = bed.reading();
@@ -112,7 +112,7 @@ TEST_CASE("A run whose water is lost or gains momentum from nowhere is ended") {
   RunGuards guards(limits_of(1e-6), bed.simulation);
   bed.steps(20);
   const GuardReading first = bed.reading();
-  CHECK(guards.look(first).empty());
+  CHECK(guards.check(first).empty());
   bed.steps(20);
   const GuardReading before = bed.reading();
   const double cells = kCells * kCells * kCells;
@@ -124,9 +124,9 @@ TEST_CASE("A run whose water is lost or gains momentum from nowhere is ended") {
     if (!mass) bed.add(2, -0.5 * share * missing);  // the opposite direction
   };
   lose(0.4);
-  CHECK(guards.look(bed.reading()).empty());
+  CHECK(guards.check(bed.reading()).empty());
   lose(0.4);
-  const auto warnings = guards.look(bed.reading());
+  const auto warnings = guards.check(bed.reading());
   REQUIRE(warnings.size() == 1);
   const std::string name = mass ? "mass of the water" : "momentum of water and grains";
   CHECK_THAT(warnings[0], Catch::Matchers::Contains("warning: " + name));
@@ -163,14 +163,14 @@ TEST_CASE("Momentum is watched along axes whose faces take none up") {
     settings.pressure_gradient = kind == periodic ? Vec3(0, 0, 20) : Vec3(20, 0, 0);
     Bed bed(settings);
     RunGuards guards(limits_of(1e-12), bed.simulation);
-    CHECK(guards.look(bed.reading()).empty());
+    CHECK(guards.check(bed.reading()).empty());
     bed.steps(10);
     const GuardReading now = bed.reading();
     CHECK(now.momentum.has_value() == watched);
     CHECK(now.stored_mass.has_value() == (kind != pressure));
     if (watched) {
       CHECK(now.momentum->surplus[2] == 0);
-      CHECK(guards.look(now).empty());
+      CHECK(guards.check(now).empty());
     }
   }
 }
@@ -196,7 +196,7 @@ TEST_CASE("A look at every 250th step costs less than 1 % of the steps", "[.cost
     GuardReading now;
     now.fluid = simulation.extremes();
     read_budgets(now, simulation);
-    (void)guards.look(now);
+    (void)guards.check(now);
     steps += middle - start;
     looks += processor_seconds() - middle;
   }

@@ -43,7 +43,8 @@ Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grain
     const auto& g = grains.list[n];
     const GrainRecord& record = records[n];
     const auto past = [](const double* values) { return Vec3(Eigen::Map<const Vec3>(values)); };
-    const Vec3 held = sphere_volume(g.radius) * units.density() * past(record.velocity) + past(record.lead);
+    const Vec3 held = sphere_volume(g.radius) * units.density() * past(record.velocity) +
+                      past(record.internal_fluid_momentum);
     sum += sphere_volume(g.radius) * g.density * g.velocity - held;
     const Vec3 change = g.velocity - past(record.velocity),
                before = units.time_step() * past(record.acceleration);

@@ -92,9 +92,9 @@ TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and 
   all.begin(bed(), 0);
   EffectFacts now = bed();
   now.water_speed = 0.29;
-  CHECK(all.look(now, 1).empty());
+  CHECK(all.check(now, 1).empty());
   now.grain_speed = 0.32;
-  const std::vector<std::string> lines = all.look(now, 2);
+  const std::vector<std::string> lines = all.check(now, 2);
   REQUIRE(all.state("turbulence").on);
   CHECK(all.state("turbulence").number.value == Approx(32));
   CHECK(all.state("turbulence").number.source == "fastest grain");
@@ -104,10 +104,10 @@ TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and 
              Catch::Contains("turbulence on from 2 s: u dx/nu = 32 (fastest grain), on above 30"));
   now.grain_speed = 0;
   now.water_speed = 0.2;
-  all.look(now, 3);
+  all.check(now, 3);
   CHECK(all.state("turbulence").on);  // within the hysteresis
   now.water_speed = 0.14;
-  all.look(now, 4);
+  all.check(now, 4);
   CHECK_FALSE(all.state("turbulence").on);
   CHECK(all.state("turbulence").changes == 2);
 }
@@ -146,7 +146,7 @@ TEST_CASE("Films come when a bed loosens below 0.45 and go when it settles above
   } course[] = {{0.55, false}, {0.47, false}, {0.44, true}, {0.48, true}, {0.51, false}, {0.46, false}};
   for (const auto& [packing, on] : course) {
     now.packing = packing;
-    all.look(now, 1);
+    all.check(now, 1);
     CAPTURE(packing);
     CHECK(all.state("lubrication").on == on);
   }
@@ -176,15 +176,15 @@ TEST_CASE("A run that begins with a saved state decides as the one that went on"
   now.grain_speed = 0.32;
   EffectSwitches first = switches(water());
   first.begin(bed(), 0);
-  first.look(now, 1);
+  first.check(now, 1);
   EffectSwitches second = switches(water());
   second.restore(first.record(), "lbm restart read state");
   now.grain_speed = 0.2;  // within the hysteresis: a run that begins here would leave turbulence off
   second.begin(now, 2);
   CHECK(second.state("turbulence").on);
   CHECK(second.state("turbulence").changed_at == 1);
-  first.look(now, 3);
-  second.look(now, 3);
+  first.check(now, 3);
+  second.check(now, 3);
   CHECK(first.record() == second.record());
   EffectSwitches fresh = switches(water());
   fresh.begin(now, 2);

@@ -17,7 +17,7 @@ class Halving final : public RunSteps {
     made.emplace_back(step, cut_short);
     left *= 0.5;
   }
-  void look(long step) override { looked = step; }
+  void check_due(long step) override { looked = step; }
   MeanMotion mean_motion() override { return {Vec3(0, 0, 1 - left), carried}; }
   std::string details() override { return ""; }
   int stop_requested() override { return looked == stop_at ? 7 : 0; }
@@ -69,11 +69,11 @@ TEST_CASE("a run ends once its flow is steady, or a step later where the end is 
 
 TEST_CASE("what the flow carries has to be steady as well, ripples of a share of the flow aside") {
   Steadiness steadiness(0.01);
-  CHECK_FALSE(steadiness.look({Vec3(1, 0, 0), Vec3(0, 0, 0.2)}));  // nothing to compare with
-  CHECK_FALSE(steadiness.look({Vec3(1, 0, 0), Vec3(0, 0, 0.22)}));
+  CHECK_FALSE(steadiness.check({Vec3(1, 0, 0), Vec3(0, 0, 0.2)}));  // nothing to compare with
+  CHECK_FALSE(steadiness.check({Vec3(1, 0, 0), Vec3(0, 0, 0.22)}));
   CHECK(steadiness.change() == 0);
-  CHECK(steadiness.look({Vec3(1, 0, 0), Vec3(0, 0, 0.229)}));
-  CHECK_FALSE(steadiness.look({Vec3(1.02, 0, 0), Vec3(0, 0, 0.229)}));
+  CHECK(steadiness.check({Vec3(1, 0, 0), Vec3(0, 0, 0.229)}));
+  CHECK_FALSE(steadiness.check({Vec3(1.02, 0, 0), Vec3(0, 0, 0.229)}));
   CHECK(steadiness.change() == Approx(0.02 / 1.02));
 }
 

@@ -48,11 +48,11 @@ class EffectSwitches {
   EffectSwitches(const CoupledSettings& asked, const lbm::Units& units);
 
   /// At the beginning of an `lbm run`: what follows from the script alone, and the flow's effects if these
-  /// were never decided or grains begin or cease to move. `time` as in `look`.
+  /// were never decided or grains begin or cease to move. `time` as in `check`.
   std::vector<std::string> begin(const EffectFacts& facts, double time);
 
   /// Decides all of them; returns one line for each that changed. `time` of the water, s.
-  std::vector<std::string> look(const EffectFacts& facts, double time);
+  std::vector<std::string> check(const EffectFacts& facts, double time);
 
   const std::vector<EffectState>& states() const { return states_; }
   const EffectState& state(const std::string& name) const;

@@ -19,7 +19,7 @@ struct GrainState {
 
 /// Momentum and angular momentum (kg m/s, kg m^2/s) by which the fluid in a grain's cells is ahead of a solid
 /// of its density that moves like the grain, after a fluid step.
-struct Lead {
+struct InternalFluidMomentum {
   Vec3 momentum = Vec3::Zero();
   Vec3 spin = Vec3::Zero();
 };
@@ -30,7 +30,7 @@ struct GrainHistory {
   Vec3 velocity = Vec3::Zero();
   Vec3 angular_velocity = Vec3::Zero();
   Load load;  ///< surface_load
-  Lead lead;
+  InternalFluidMomentum internal;
 };
 
 struct LoadRule {
@@ -46,16 +46,17 @@ using micromechanics::sphere_volume;
 
 /// What the fluid outside does to a grain, from what its cells exchanged in a fluid step:
 ///
-///   F = F_exchange + d/dt (rho_f V u + lead),   T = T_exchange + d/dt (rho_f V (2/5 a^2 + dx^2/6) w + spin
-///   lead).
+///   F = F_exchange + d/dt (rho_f V u + P),   T = T_exchange + d/dt (rho_f V (2/5 a^2 + dx^2/6) w + L),
+///
+/// P and L being `internal`.
 ///
 /// The exchange also accelerates the fluid that the grain's cells hold, whose momentum is the bracket; its
 /// change over the time passed gives that back (docs key: kempefrohlich2012). What is left is what has come
 /// in through the surface. dx^2/6 is the moment that a sphere gains because each of its points moves with the
 /// cell around it. Without history the second term is zero, and for spheres below two cells a diameter that
 /// of the torque: a cell or two hold them, whose own inertia is larger than theirs.
-Load surface_load(const Load& exchange, const Lead& lead, const GrainState& now, const GrainHistory& before,
-                  const LoadRule& rule);
+Load surface_load(const Load& exchange, const InternalFluidMomentum& internal, const GrainState& now,
+                  const GrainHistory& before, const LoadRule& rule);
 
 /// What the grain feels: `surface`, or its mean with the step before, less the weight of the displaced fluid,
 /// rho_f V g, since pressures are those in excess of the hydrostatic one (docs/decisions/gravity.md).

@@ -28,8 +28,8 @@ struct LatticeLoad {
   double torque[3]{};
   /// Momentum, and angular momentum, by which the fluid that the sphere covers was ahead of the sphere after
   /// that step (lbm::HeldTerms).
-  double lead[3]{};
-  double spin_lead[3]{};
+  double internal_fluid_momentum[3]{};
+  double internal_fluid_spin[3]{};
 };
 
 /// A sphere as it was last placed, as far as its cells need it, and which cells of this rank it may reach:

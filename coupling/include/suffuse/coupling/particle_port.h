@@ -29,10 +29,10 @@ struct GrainMemory {
 
 /// What the cells of one sphere handed to it in a fluid step, SI; torque and spin about its centre.
 struct GrainSums {
-  double force[3]{};      ///< N
-  double torque[3]{};     ///< N m
-  double lead[3]{};       ///< Lead::momentum, kg m/s
-  double spin_lead[3]{};  ///< Lead::spin, kg m^2/s
+  double force[3]{};                    ///< N
+  double torque[3]{};                   ///< N m
+  double internal_fluid_momentum[3]{};  ///< InternalFluidMomentum::momentum, kg m/s
+  double internal_fluid_spin[3]{};      ///< InternalFluidMomentum::spin, kg m^2/s
 };
 
 /// What the coupling asks of a discrete-element code.

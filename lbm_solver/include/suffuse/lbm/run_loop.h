@@ -21,7 +21,7 @@ class Steadiness {
  public:
   explicit Steadiness(double share) : share_(share) {}
 
-  bool look(const MeanMotion& now);
+  bool check(const MeanMotion& now);
   /// Of the flow between the last two looks, as a share of itself; 0 before, and where nothing flows.
   double change() const { return change_; }
 
@@ -45,7 +45,7 @@ class RunSteps {
   /// Makes the fluid's step number `step`. `cut_short`: no other follows although the run was to be longer.
   virtual void advance(long step, bool cut_short) = 0;
   /// Everything that is due after it: guards, then what is written.
-  virtual void look(long step) = 0;
+  virtual void check_due(long step) = 0;
   virtual MeanMotion mean_motion() = 0;
   /// For progress lines.
   virtual std::string details() = 0;

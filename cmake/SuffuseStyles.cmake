@@ -1,0 +1,27 @@
+# suffuse_styles(SOURCES_VARIABLE [MORE STYLE ...]): the fixes, computes and commands of docs/reference/styles.tsv whose files are in styles/, and
+# those of MORE, which scripts do not name. Gives their sources and writes styles/all_styles.h into the build folder: the includes of their
+# headers, each of which expands to its FixStyle(...), ComputeStyle(...) or CommandStyle(...) line where FIX_CLASS and the like are defined.
+function(suffuse_styles sources_variable)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" MORE)
+  set(table ${PROJECT_SOURCE_DIR}/docs/reference/styles.tsv)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${table})
+  set(styles ${ARG_MORE})
+  file(STRINGS ${table} rows REGEX "^(fix|compute|command)\t")
+  foreach(row IN LISTS rows)
+    string(REGEX MATCH "^([a-z]+)\t([^\t]+)" _ "${row}")
+    string(REPLACE "/" "_" style "${CMAKE_MATCH_1}_${CMAKE_MATCH_2}")
+    # Commands of the water are the coupling's.
+    if(NOT CMAKE_MATCH_1 STREQUAL "command" OR EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/styles/${style}.cpp)
+      list(APPEND styles ${style})
+    endif()
+  endforeach()
+  list(SORT styles)
+  set(includes "// Written by CMake from docs/reference/styles.tsv: every style of ours.\n")
+  set(sources)
+  foreach(style IN LISTS styles)
+    string(APPEND includes "#include \"styles/${style}.h\"\n")
+    list(APPEND sources styles/${style}.cpp)
+  endforeach()
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/styles/all_styles.h CONTENT "${includes}" @ONLY)
+  set(${sources_variable} ${sources} PARENT_SCOPE)
+endfunction()
