@@ -23,7 +23,7 @@ void refuse_word(const ArgumentReader& reader, const std::string& noun, const st
 
 void refuse_empty_line(const ArgumentReader& reader, const std::string& noun,
                        const std::vector<std::string>& known) {
-  throw_user_error({reader.who(), noun, "missing", fmt::format("be {}", fmt::join(known, " or ")), ""});
+  throw_user_error({reader.who(), noun, "missing", fmt::format("be one of: {}", fmt::join(known, ", ")), ""});
 }
 
 }  // namespace suffuse::coupling
