@@ -55,7 +55,7 @@ TEST_CASE("rules between words of a line") {
   CHECK_THAT(refusal("lbm collision bgk magic 0.2"), Catch::Contains("go with trt or trt_comoving"));
   CHECK_THAT(refusal("lbm solid weighting fraction coefficient 2"), Catch::Contains("viscosity_independent"));
   CHECK_THAT(refusal("lbm method resolved drag tang"), Catch::Contains("go with averaged"));
-  CHECK_THAT(refusal("lbm force"), Catch::Contains("gravity or pressure_gradient"));
+  CHECK_THAT(refusal("lbm force"), Catch::Contains("gravity, pressure_gradient"));
   CHECK_THAT(refusal("lbm monitor m every 1 file m.csv layer_porosity"), Catch::Contains("layers LO HI N"));
   LbmRequest request;
   read("lbm solid weighting fraction", request);
