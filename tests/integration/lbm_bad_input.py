@@ -35,7 +35,7 @@ CASES = [
     (WET + "lbm boundary zlo leaky\n", ["zlo = leaky", "noslip"]),
     (WET + "lbm boundary zlo noslip zlo freeslip\n", ["zlo = given twice"]),
     (WET + "lbm boundary top noslip\n", ["face = top", "zhi"]),
-    (WET + "lbm force\n", ["gravity or pressure_gradient"]),
+    (WET + "lbm force\n", ["gravity, pressure_gradient"]),
     (WET + "lbm force gravity 0 0\n", ["gravity z", "be given"]),
     (WET + "lbm collision les\n", ["operator = les", "trt"]),
     (WET + "lbm collision trt magic 0\n", ["magic = 0"]),
