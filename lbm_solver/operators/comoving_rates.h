@@ -1,6 +1,7 @@
 #pragma once
 
 #include "moments_to_populations.h"
+#include "stress.h"
 
 namespace suffuse::lbm::SUFFUSE_KERNEL_NAMESPACE {
 
@@ -58,20 +59,11 @@ struct ComovingRates {
                                              const KernelCall<T>& call) {
     using V = Pack<T>;
     const auto &u = cell.velocity, &j = cell.momentum;
-    // Raw moments before the collision: of a plane M_aabb, M_ab, M_abb and M_aab.
-    V fourth[3], shear[3], third_a[3], third_b[3];
-    for (int plane = 0; plane < 3; ++plane) {
-      const int first = 7 + 4 * plane, second = first + 2;
-      const V sum = g.get(first) + g.get(first + 1), across = g.get(second) + g.get(second + 1);
-      const V difference = g.get(first) - g.get(first + 1), back = g.get(second) - g.get(second + 1);
-      fourth[plane] = sum + across;
-      shear[plane] = sum - across;
-      third_a[plane] = difference + back;
-      third_b[plane] = difference - back;
-    }
-    V normal[3] = {(g.get(1) + g.get(2)) + (fourth[0] + fourth[1]),
-                   (g.get(3) + g.get(4)) + (fourth[0] + fourth[2]),
-                   (g.get(5) + g.get(6)) + (fourth[1] + fourth[2])};
+    const Stress<T> away = stress_of<kForced, T>(g, cell);
+    V even_rate = broadcast<T>(call.even_rate), odd_rate = broadcast<T>(call.odd_rate);
+    if constexpr (kEddy)
+      rates_under<T>(call, eddy_relaxation_time<T>(call, squared<T>(away), cell.inverse_density), even_rate,
+                     odd_rate);
     // Of second moments, what the equilibrium and half of the source have beyond rho/3.
     V flow_normal[3] = {j[0] * u[0], j[1] * u[1], j[2] * u[2]};
     V flow_shear[3] = {j[0] * u[1], j[0] * u[2], j[1] * u[2]};
@@ -79,28 +71,14 @@ struct ComovingRates {
     V work[3];
     if constexpr (kForced) {
       const auto& f = cell.force;
-      const V turn[3] = {T(0.5) * (u[0] * f[1] + u[1] * f[0]), T(0.5) * (u[0] * f[2] + u[2] * f[0]),
-                         T(0.5) * (u[1] * f[2] + u[2] * f[1])};
-      for (int a = 0; a < 3; ++a) {
-        work[a] = u[a] * f[a];
-        normal[a] = (normal[a] - third_of_density) - (flow_normal[a] - work[a]);
-        shear[a] = shear[a] - (flow_shear[a] - turn[a]);
-        flow_shear[a] = flow_shear[a] + turn[a];
-      }
-    } else {
-      for (int a = 0; a < 3; ++a) {
-        normal[a] = (normal[a] - third_of_density) - flow_normal[a];
-        shear[a] = shear[a] - flow_shear[a];
-      }
-    }
-    V even_rate = broadcast<T>(call.even_rate), odd_rate = broadcast<T>(call.odd_rate);
-    if constexpr (kEddy) {
-      const V squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2] +
-                        T(2) * (shear[0] * shear[0] + shear[1] * shear[1] + shear[2] * shear[2]);
-      rates_under<T>(call, eddy_relaxation_time<T>(call, squared, cell.inverse_density), even_rate, odd_rate);
+      for (int a = 0; a < 3; ++a) work[a] = u[a] * f[a];
+      flow_shear[0] = flow_shear[0] + T(0.5) * (u[0] * f[1] + u[1] * f[0]);
+      flow_shear[1] = flow_shear[1] + T(0.5) * (u[0] * f[2] + u[2] * f[0]);
+      flow_shear[2] = flow_shear[2] + T(0.5) * (u[1] * f[2] + u[2] * f[1]);
     }
     const V keep = T(1) - even_rate;
     Shared<T> shared;
+    V normal[3];  // after the collision
     shared.keep = T(0.25) * keep;
     shared.difference = T(0.25) * (even_rate - odd_rate);
     const V fourth_flow = T(1. / 12) * even_rate, fourth_work = T(1. / 6) - T(1. / 12) * even_rate;
@@ -113,18 +91,22 @@ struct ComovingRates {
       shared.twice_u[a] = u[a] + u[a];
       shared.fourth[a] = fourth_flow * flow_normal[a] + fourth_at_rest;
       if constexpr (kForced) shared.fourth[a] = shared.fourth[a] + fourth_work * work[a];
-      shared.normal[a] = shared.difference * normal[a];
-      normal[a] = keep * normal[a] + (third_of_density + flow_normal[a]);
+      shared.normal[a] = shared.difference * away.normal[a];
+      normal[a] = keep * away.normal[a] + (third_of_density + flow_normal[a]);
       if constexpr (kForced) normal[a] = normal[a] + work[a];
     }
+    // All planes are read before the first is written.
     PlaneMoments<T> after[3];
     for (int plane = 0; plane < 3; ++plane) {
-      const int a = plane == 2 ? 1 : 0, b = plane == 0 ? 1 : 2, first = 7 + 4 * plane;
-      after[plane] =
-          relax_plane<T>(cell, shared, a, b, third_a[plane], third_b[plane], fourth[plane], shear[plane]);
-      put_plane<T>(g, first, first + 2, after[plane],
-                   shared.keep * shear[plane] + T(0.25) * flow_shear[plane]);
+      const int a = plane == 2 ? 1 : 0, b = plane == 0 ? 1 : 2, first = 7 + 4 * plane, second = first + 2;
+      const V difference = g.get(first) - g.get(first + 1), across = g.get(second) - g.get(second + 1);
+      const V fourth = (g.get(first) + g.get(first + 1)) + (g.get(second) + g.get(second + 1));
+      after[plane] = relax_plane<T>(cell, shared, a, b, difference + across, difference - across, fourth,
+                                    away.tangential[plane]);
     }
+    for (int plane = 0; plane < 3; ++plane)
+      put_plane<T>(g, 7 + 4 * plane, 9 + 4 * plane, after[plane],
+                   shared.keep * away.tangential[plane] + T(0.25) * flow_shear[plane]);
     put_axes_and_rest<kForced, T>(g, cell, normal, after[0], after[1], after[2]);
   }
 };
