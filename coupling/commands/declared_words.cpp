@@ -21,9 +21,4 @@ void refuse_word(const ArgumentReader& reader, const std::string& noun, const st
        known.empty() ? "be one of: nothing more" : fmt::format("be one of: {}", fmt::join(known, ", ")), ""});
 }
 
-void refuse_empty_line(const ArgumentReader& reader, const std::string& noun,
-                       const std::vector<std::string>& known) {
-  throw_user_error({reader.who(), noun, "missing", fmt::format("be one of: {}", fmt::join(known, ", ")), ""});
-}
-
 }  // namespace suffuse::coupling

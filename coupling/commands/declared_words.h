@@ -97,8 +97,6 @@ struct CommandFacts {
 std::string form_of(const WordFacts& facts, bool required);
 [[noreturn]] void refuse_word(const ArgumentReader& reader, const std::string& noun, const std::string& given,
                               const std::vector<std::string>& known);
-[[noreturn]] void refuse_empty_line(const ArgumentReader& reader, const std::string& noun,
-                                    const std::vector<std::string>& known);
 
 template <class Request>
 CommandFacts facts_of(const Command<Request>& command) {
@@ -152,7 +150,7 @@ void read_words(const Command<Request>& command, ArgumentReader& reader, LAMMPS_
       refuse_word(reader, command.noun, name, names());
   };
   while (!reader.done()) read_one();
-  if (command.at_least_one && given.empty()) refuse_empty_line(reader, command.noun, names());
+  if (command.at_least_one && given.empty()) refuse_word(reader, command.noun, "missing", names());
   if (command.finish) command.finish(reader, request, next, given);
   request = std::move(next);
 }

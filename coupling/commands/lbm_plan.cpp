@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include "../liggghts/fine_diameter.h"
 #include "manifest.h"
 #include "styles/style_support.h"
 #include "suffuse/common/count_text.h"
@@ -264,7 +263,7 @@ void plan_run(LAMMPS_NS::LAMMPS* lmp, const CoupledSettings& settings, const lbm
   if (grains_move)
     costs.grains = grain_seconds(parts.ranks(), past, settings.substeps * static_cast<double>(grains.grains));
   const double steps = std::max(1., std::round(units.time_to_lattice(time)));
-  const double fine = grains.grains > 0 ? fine_diameter(port, grains) : 0;
+  const double fine = driven.scene.fine_diameter;
   tell(lmp,
        scene_text(settings, units, parts.cells(), grains, fine, time, steps, costs.bytes) +
            cost_table(costs, steps, past.grain_steps > 0) +
