@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,31 +73,19 @@ bool asks_for_help(int argc, char** argv, std::vector<std::string>& about) {
   return false;
 }
 
-bool answered_without_a_script(int argc, char** argv) {
+/// What the program says of itself where it is asked to, without a script. A UserError for a line of `lbm`
+/// that there is not.
+std::optional<std::string> own_answer(int argc, char** argv) {
   std::vector<std::string> about;
   if (asks_for_help(argc, argv, about)) {
-    if (!about.empty() && about[0] == "lbm") {
-      std::fputs(suffuse::lbm_help(about.size() > 1 ? about[1] : "").c_str(), stdout);
-      return true;
-    }
+    if (!about.empty() && about[0] == "lbm") return suffuse::lbm_help(about.size() > 1 ? about[1] : "");
     std::string text = kHelp;
-    text.replace(text.find("{version}"), 9, SUFFUSE_VERSION);
-    std::fputs(text.c_str(), stdout);
-    return true;
+    return text.replace(text.find("{version}"), 9, SUFFUSE_VERSION);
   }
-  if (given(argc, argv, "--version")) {
-    fmt::print("suffuse {}\n", SUFFUSE_VERSION);
-    return true;
-  }
-  if (given(argc, argv, "--words")) {
-    std::fputs(suffuse::words_text().c_str(), stdout);
-    return true;
-  }
-  if (given(argc, argv, "--styles")) {
-    std::fputs(suffuse::styles_text().c_str(), stdout);
-    return true;
-  }
-  return false;
+  if (given(argc, argv, "--version")) return fmt::format("suffuse {}\n", SUFFUSE_VERSION);
+  if (given(argc, argv, "--words")) return suffuse::words_text();
+  if (given(argc, argv, "--styles")) return suffuse::styles_text();
+  return {};
 }
 
 /// Lets a script find files beside it, and the programs beside this one: ${script_folder} is the folder of
@@ -211,26 +200,22 @@ End run_script(int argc, char** argv, int rank) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is then an error of the write, which is said
-  // Open MPI keeps a semaphore for pointers that ranks share into files, which nothing here uses, by the
-  // file's name alone: one left by a killed run makes each later run that opens such a file wait for ever.
-  setenv("OMPI_MCA_sharedfp", "^sm", 0);
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm ends = MPI_COMM_NULL;
   MPI_Comm_dup(MPI_COMM_WORLD, &ends);
   int code = 0;
-  const bool own_option = given(argc, argv, "--help") || given(argc, argv, "-help") ||
-                          given(argc, argv, "-h") || given(argc, argv, "--version") ||
-                          given(argc, argv, "--styles") || given(argc, argv, "--words");
-  if (own_option) {
-    try {
-      if (rank == 0) answered_without_a_script(argc, argv);
-    } catch (const suffuse::UserError& problem) {
-      tell_the_end(fmt::format("suffuse: error: {}", problem.what()), nullptr, rank);
-      code = 1;
-    }
-  } else {
+  std::optional<std::string> answer;
+  try {
+    answer = own_answer(argc, argv);
+    if (answer && rank == 0) std::fputs(answer->c_str(), stdout);
+  } catch (const suffuse::UserError& problem) {
+    answer = "";
+    tell_the_end(fmt::format("suffuse: error: {}", problem.what()), nullptr, rank);
+    code = 1;
+  }
+  if (!answer) {
     const End end = run_script(argc, argv, rank);
     code = end.code;
     // Rank 0 has said its own words.
