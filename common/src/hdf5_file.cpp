@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
@@ -21,6 +22,11 @@
 namespace suffuse {
 
 namespace {
+
+/// Before MPI starts, in every program that opens files here: Open MPI keeps a semaphore for pointers that
+/// ranks share into files, which nothing here uses, by the file's name alone. One left by a killed run makes
+/// each later run that opens a file of that name wait for ever.
+[[maybe_unused]] const int kNoSharedFilePointers = setenv("OMPI_MCA_sharedfp", "^sm", 0);
 
 /// Closes an HDF5 identifier when it goes out of scope.
 class Id {

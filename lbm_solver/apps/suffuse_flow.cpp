@@ -279,7 +279,6 @@ class FlowRun final : private RunSteps {
 }  // namespace
 
 int main(int argc, char** argv) {
-  setenv("OMPI_MCA_sharedfp", "^sm", 0);  // as in suffuse.cpp: a semaphore that outlives a killed run
   MPI_Init(&argc, &argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);

@@ -7,6 +7,7 @@ read; a run that SIGKILL ends at any instant leaves a state of water and grains 
 a damaged one is refused. Mounting needs root: without it the full disk is left out, and said.
 """
 import contextlib
+import ctypes
 import os
 import pathlib
 import random
@@ -128,6 +129,18 @@ def check_full_series(program, folder):
                 look = f"import h5py; f = h5py.File('{file}'); print(sum(len(f[s]) > 0 for s in f))"
                 done = subprocess.run(["/usr/bin/python3", "-c", look], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
                 expect(done.returncode == 0 and int(done.stdout) > 3, f"{file}: {done.stdout[-300:]}")
+
+
+def check_semaphore(program, folder):
+    """What Open MPI of a killed run left under the name of a file in memory that all see keeps no later run waiting."""
+    library = ctypes.CDLL("libpthread.so.0", use_errno=True)
+    library.sem_open.restype = ctypes.c_void_p
+    name = b"/OMPIO_fluid.h5"
+    expect(library.sem_open(name, os.O_CREAT, 0o600, 0), "no semaphore could be made")
+    try:
+        program.must_run(wet_box(restart="start") + WATER + RUN + "lbm run 1e-3\nlbm restart write waited\n", folder, "semaphore", timeout=60)
+    finally:
+        library.sem_unlink(name)
 
 
 def check_damaged(program, folder):
@@ -277,6 +290,7 @@ def main():
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box(grains=6) + "write_restart start\n", folder)
         Program(program.suffuse, program.mpirun, 1).must_run(loose_sample(grains=100) + "write_restart sample\n", folder)
         mounts = can_mount(folder)
+        check_semaphore(program, folder)
         check_damaged(program, folder)
         check_foreign_records(program, folder)
         if mounts:
