@@ -23,32 +23,32 @@ from collections.abc import Callable
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests" / "support"), str(ROOT / "tests" / "hard_cases")]
-from scenes import Program, columns  # noqa: E402
+from hard_cases import Bench as HardCaseBench  # noqa: E402
 from wet_grains import DENSITY, DUMP, VISCOSITY, Water, cubic, grain, last_dump, scattered, scene  # noqa: E402
 
 BOX = {"zlo": "noslip", "zhi": "noslip"}
 
 
-class Bench:
-    """A folder, and the program on one rank; what wet_grains.scene wants of it."""
+class Bench(HardCaseBench):
+    """A folder, and the program on one rank; adds up the processor time of its runs."""
 
     def __init__(self, suffuse, folder):
-        self.suffuse, self.folder, self.seconds = suffuse, pathlib.Path(folder), 0.0
+        super().__init__(types.SimpleNamespace(suffuse=suffuse, mpirun=""), folder)
+        self.seconds = 0.0
 
     def run(self, text):
-        """Exit code of the script; adds up the processor time."""
-        for written in ("flow.csv", "grains.dump", "effects.json"):
-            (self.folder / written).unlink(missing_ok=True)
+        """Exit code of the script."""
+        (self.folder / "effects.json").unlink(missing_ok=True)
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        code, self.screen = Program(self.suffuse, "", 1).run(text, self.folder, timeout=900)
+        code, screen = super().run(text, timeout=900)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         self.seconds += after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        if code not in (0, 4) and "Lost atoms" not in self.screen:
-            sys.exit(f"ended with code {code}:\n{self.screen[-2500:]}")
+        if code not in (0, 4) and "Lost atoms" not in screen:
+            sys.exit(f"ended with code {code}:\n{screen[-2500:]}")
         return code
 
     def last(self, column):
-        return columns(self.folder / "flow.csv")[column][-1]
+        return self.series()[column][-1]
 
     def grains(self):
         return last_dump(self.folder / "grains.dump")
@@ -97,7 +97,7 @@ def slip_past_a_moved_bed(cells_a_step, bench, line, tau=0.51):
     after = f"fix motion all move linear 0 0 {speed:.12g} units box\n" + watch(water, 20) + f"lbm run {9000 * water.step:.12g}\n"
     if bench.run(scene(bench, water, scattered(count, diameter, water.size, clear=1.0), after, held=True, timestep=water.step / 10)) != 0:
         return None
-    flow = columns(bench.folder / "flow.csv")["superficial_velocity_z_m_per_s"][-50:]
+    flow = bench.series()["superficial_velocity_z_m_per_s"][-50:]
     return sum(flow) / len(flow) / (1 - solids) - speed
 
 
@@ -176,8 +176,8 @@ def spin_by_faxen(bench):
     return abs(SHEAR_FORCE / (DENSITY * VISCOSITY) * (1.6e-3 - x)) / 2
 
 
-def switch(effect):
-    return {state: f"lbm effect {effect} {state}" for state in ("off", "on", "auto")}
+def switch(effect, besides=""):
+    return {state: f"lbm effect {effect} {state} {besides}" for state in ("off", "on", "auto")}
 
 
 ADDED = {"off": "lbm couple virtual_mass 0", "on": "lbm couple virtual_mass 0.5", "auto": "lbm couple virtual_mass auto"}
@@ -185,14 +185,14 @@ ADDED = {"off": "lbm couple virtual_mass 0", "on": "lbm couple virtual_mass 0.5"
 SCENES = [
     Scene("turbulence", True, "energy of grains thrown at a grid Reynolds number of 150 (relaxation time 0.501)", "of the start",
           lambda b, line: energy_left(0.501, line, b), lambda b: energy_left(0.501, "lbm effect turbulence off comoving off", b, 3), 0.25,
-          {s: f"lbm effect turbulence {s} comoving off" for s in ("off", "on", "auto")}),
+          switch("turbulence", "comoving off")),
     Scene("turbulence", False, "the same at 5 (0.53)", "of the start", lambda b, line: energy_left(0.53, line, b), None, 0.02,
-          {s: f"lbm effect turbulence {s} comoving off" for s in ("off", "on", "auto")}),
+          switch("turbulence", "comoving off")),
     Scene("comoving", True, "slip of water past a bed that carries it along at V dx/nu = 9 (0.51)", "m/s",
           lambda b, line: slip_past_a_moved_bed(0.03, b, line), lambda b: slip_past_a_moved_bed(0.0, b, "lbm effect comoving off"), 0.05,
-          {s: f"lbm effect turbulence off comoving {s}" for s in ("off", "on", "auto")}),
+          switch("comoving", "turbulence off")),
     Scene("comoving", False, "the same at 0.5 (0.6)", "m/s", lambda b, line: slip_past_a_moved_bed(0.0167, b, line, 0.6), None, 0.01,
-          {s: f"lbm effect turbulence off comoving {s}" for s in ("off", "on", "auto")}),
+          switch("comoving", "turbulence off")),
     Scene("lubrication", True, "gap left above a wall by a slow grain", "radii", gap_above_a_wall, gap_by_theory, 0.3, switch("lubrication")),
     Scene("lubrication", False, "Darcy velocity through grains that rest on each other", "m/s", flow_through_grains_at_rest, None, 0.01, switch("lubrication")),
     Scene("added mass", True, "speed of a rising grain, a fifth of the water's density, after 0.05 s", "m/s",
@@ -212,9 +212,10 @@ def decision(folder, effect):
     """What effects.json says of it: on, and the number with its limit."""
     report = json.loads((folder / "effects.json").read_text())
     found = next(e for e in report["effects"] if e["name"] == effect)
+    on = found["on"] or found["changes"] > 0
     if found.get("value") is None:
-        return found["on"] or found["changes"] > 0, found.get("source") or ""
-    return found["on"] or found["changes"] > 0, f"{found['number']} = {found['value']:.3g}, limit {found['limit']:g}"
+        return on, found.get("source") or ""
+    return on, f"{found['number']} = {found['value']:.3g}, limit {found['limit']:g}"
 
 
 def difference(value, reference):
