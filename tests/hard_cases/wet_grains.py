@@ -81,6 +81,11 @@ def array_speed(concentration):
     return 1 - 1.7601 * concentration ** (1 / 3) + concentration - 1.5593 * concentration ** 2
 
 
+def stokes_velocity(diameter, gravity, density=2650.0):
+    """m/s of a lone sphere that settles in the water (Stokes 1851)."""
+    return (density / DENSITY - 1) * gravity * diameter ** 2 / (18 * VISCOSITY)
+
+
 def weight_pressure(count, diameter, size):
     """Pa: the weight in water of `count` grains over the column's area, at which the gradient is critical."""
     return 1650 * 9.81 * count * math.pi / 6 * diameter ** 3 / (size[0] * size[1])
