@@ -12,8 +12,12 @@ import tempfile
 
 # What Open MPI need not do for hundreds of short runs. All ranks end together when one line refuses a script: mpirun need not wait
 # between asking the ranks to end and killing them, which takes it a second or two after every exit code but 0 (not where mpirun gets
-# a SIGTERM: the ranks save a state in that time). A rank without mpirun needs no daemon, which only starting more ranks would need.
-QUICK_STARTS_AND_ENDS = {"OMPI_MCA_odls_base_sigkill_timeout": "0", "OMPI_MCA_ess_singleton_isolated": "1"}
+# a SIGTERM: the ranks save a state in that time). A rank without mpirun needs no daemon, which only starting more ranks would need;
+# without one all such ranks of a machine take the same session folder, and the first to end removes it under one that begins: each
+# test has a folder of its own for them, where a killed run's leftovers harm no other test either.
+_SESSIONS = tempfile.TemporaryDirectory(prefix="suffuse-mpi-")
+QUICK_STARTS_AND_ENDS = {"OMPI_MCA_odls_base_sigkill_timeout": "0", "OMPI_MCA_ess_singleton_isolated": "1",
+                         "OMPI_MCA_orte_tmpdir_base": _SESSIONS.name}
 
 HEADER = """
 units si
