@@ -4,6 +4,7 @@
 #include "mapping_kernels.h"
 
 #include "sphere_fraction.h"
+#include "suffuse/simd/four_doubles.h"
 
 namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
@@ -170,8 +171,9 @@ struct Row<float> {
   [[gnu::always_inline]] static Doubles sum(const Values& v) { return widened(v); }
 };
 
-typedef double Four __attribute__((vector_size(32)));
-typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+using simd::SUFFUSE_KERNEL_NAMESPACE::Four;
+using simd::SUFFUSE_KERNEL_NAMESPACE::store_unaligned;
+using simd::SUFFUSE_KERNEL_NAMESPACE::unaligned;
 
 /// The sums of four vectors' lanes.
 [[gnu::always_inline]] inline Four sums_of(const Doubles& a, const Doubles& b, const Doubles& c,
@@ -250,8 +252,8 @@ template <class T>
                         sums_of(lead.force[2], lead.torque[0], lead.torque[1], lead.torque[2])};
   static_assert(sizeof(LatticeLoad) == sizeof sums,
                 "force, torque, internal_fluid_momentum, internal_fluid_spin, nothing else");
-  char* to = reinterpret_cast<char*>(&load_sum);
-  for (int i = 0; i < 3; ++i) *reinterpret_cast<UnalignedFour*>(to + 32 * i) += sums[i];
+  double* to = reinterpret_cast<double*>(&load_sum);
+  for (int i = 0; i < 3; ++i) store_unaligned(to + 4 * i, unaligned(to + 4 * i) + sums[i]);
   return entries;
 }
 

@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "domain.h"
 #include "force.h"
+#include "grains/grain_motion.h"
 #include "modify.h"
 #include "neigh_list.h"
 #include "neighbor_by_size.h"
@@ -280,16 +281,12 @@ void PairGranVector::find_owners() {
   // Under `fix deform ... remap v` an image has another velocity than its original.
   const bool can_map = atom->map_style != 0 && domain->deform_vremap == 0;
   owner_.resize(static_cast<std::size_t>(all));
-  foreign_.clear();
   for (int i = 0; i < all; ++i) {
     int& owner = owner_[static_cast<std::size_t>(i)];
     owner = i;
     if (i < owned) continue;
     const int original = can_map ? atom->map(atom->tag[i]) : -1;
-    if (original >= 0 && original < owned)
-      owner = original;
-    else
-      foreign_.push_back(i);
+    if (original >= 0 && original < owned) owner = original;
   }
   immovable_.resize(static_cast<std::size_t>(all));
   for (int i = 0; i < all; ++i)
@@ -334,7 +331,11 @@ void PairGranVector::find_twins() {
 }
 
 void PairGranVector::choose_active() {
-  const int owned = atom->nlocal, nobody = owned + atom->nghost;
+  const int owned = atom->nlocal, nobody = owned;
+  loads_.assign(static_cast<std::size_t>(owned) + 1, {});
+  images_.clear();
+  foreign_.clear();
+  std::vector<bool> seen(static_cast<std::size_t>(atom->nghost), false);
   active_first_.clear();
   active_second_.clear();
   active_motion_.clear();
@@ -346,6 +347,11 @@ void PairGranVector::choose_active() {
     const bool has_twin = twin_[k] != kNoTwin;
     if (has_twin && twin_[k] < k) continue;
     const int j = second_[k], owner = owner_[static_cast<std::size_t>(j)];
+    if (j >= owned && !seen[static_cast<std::size_t>(j - owned)]) {
+      seen[static_cast<std::size_t>(j - owned)] = true;
+      images_.push_back(static_cast<std::size_t>(j));
+      if (owner == j) foreign_.push_back(static_cast<std::size_t>(j));
+    }
     active_first_.push_back(first_[k]);
     active_second_.push_back(j);
     active_motion_.push_back(owner);
@@ -388,13 +394,14 @@ void PairGranVector::take_motion() {
   if (owned == 0) return;
   const double *x = atom->x[0], *v = atom->v[0], *w = atom->omega[0], *radius = atom->radius,
                *mass = atom->rmass;
-  for (std::size_t i = 0; i < all; ++i) position_[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
-  const auto take = [&](std::size_t i) {
+  suffuse::grains::gather_motion(
+      instruction_set_, {atom->x[0], atom->v[0], atom->omega[0], atom->f[0], atom->torque[0], mass, radius},
+      immovable_.data(), owned, position_.data(), velocity_.data(), spin_.data());
+  for (const std::size_t i : images_) position_[i] = {x[3 * i], x[3 * i + 1], x[3 * i + 2], radius[i]};
+  for (const std::size_t i : foreign_) {
     velocity_[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2], immovable_[i] / mass[i]};
     spin_[i] = {w[3 * i], w[3 * i + 1], w[3 * i + 2], radius[i]};
-  };
-  for (std::size_t i = 0; i < owned; ++i) take(i);
-  for (const int i : foreign_) take(static_cast<std::size_t>(i));
+  }
   if (law_.materials == 1) return;
   material_.resize(all);
   for (std::size_t i = 0; i < all; ++i) material_[i] = atom->type[i] - 1;
@@ -414,7 +421,7 @@ PassSettings PairGranVector::pass_settings(bool advance) const {
 void PairGranVector::force_pass(int vflag) {
   take_motion();
   const auto owned = static_cast<std::size_t>(atom->nlocal);
-  loads_.assign(owned + static_cast<std::size_t>(atom->nghost) + 1, {});
+  loads_[owned] = {};  // of the pairs' second grains that other ranks see to
   suffuse::grains::PassOutput wanted;
   wanted.loads = loads_.data();
   wanted.owned = atom->nlocal;
@@ -429,12 +436,7 @@ void PairGranVector::force_pass(int vflag) {
     springs_are_newer_ = law_.tangential == TangentialLaw::history;
   }
   if (owned == 0) return;
-  double *f = atom->f[0], *t = atom->torque[0];
-  for (std::size_t i = 0; i < owned; ++i) {
-    const auto& load = loads_[i];
-    f[3 * i] += load.force.x, f[3 * i + 1] += load.force.y, f[3 * i + 2] += load.force.z;
-    t[3 * i] += load.torque.x, t[3 * i + 1] += load.torque.y, t[3 * i + 2] += load.torque.z;
-  }
+  suffuse::grains::hand_out_loads(instruction_set_, loads_.data(), owned, atom->f[0], atom->torque[0]);
 }
 
 /// For `compute pair/gran/local` and our own sampler: every listed pair that touches, in the order of the

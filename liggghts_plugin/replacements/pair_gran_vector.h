@@ -87,14 +87,16 @@ class PairGranVector : public PairGranProxy {
   std::vector<suffuse::grains::Quad> springs_;
   std::vector<int> active_first_, active_second_, active_motion_, active_receiver_;
   std::vector<std::uint32_t> active_spring_, active_pair_;
-  std::vector<int> owner_;         ///< of a copy whose original is on this rank: that one; else itself
-  std::vector<int> foreign_;       ///< copies of grains of other ranks
-  std::vector<double> immovable_;  ///< factor of 1 / mass, one a grain
+  std::vector<int> owner_;            ///< of a copy whose original is on this rank: that one; else itself
+  std::vector<std::size_t> images_;   ///< copies that stand in active pairs
+  std::vector<std::size_t> foreign_;  ///< those of grains of other ranks
+  std::vector<double> immovable_;     ///< factor of 1 / mass, one a grain
   double pass_number_ = 0;
 
   std::vector<suffuse::grains::Quad> position_, velocity_, spin_;
   std::vector<int> material_;
-  std::vector<suffuse::grains::Load> loads_;
+  std::vector<suffuse::grains::Load>
+      loads_;  ///< of the owned grains, zero between passes, and one for nobody
 };
 
 }  // namespace LAMMPS_NS

@@ -17,6 +17,14 @@ typedef long FourFlags __attribute__((vector_size(32)));
 [[gnu::always_inline]] inline Four lanes(const double* from) {
   return *reinterpret_cast<const Four*>(from);
 }
+/// The same anywhere in memory, whatever the type of the values there.
+typedef double UnalignedFour __attribute__((vector_size(32), aligned(8), may_alias));
+[[gnu::always_inline]] inline Four unaligned(const double* from) {
+  return *reinterpret_cast<const UnalignedFour*>(from);
+}
+[[gnu::always_inline]] inline void store_unaligned(double* to, Four value) {
+  *reinterpret_cast<UnalignedFour*>(to) = value;
+}
 /// One bit for each lane that is not zero, the first lane's the lowest.
 [[gnu::always_inline]] inline int bits_of(FourFlags flags) {
 #ifdef __AVX__
