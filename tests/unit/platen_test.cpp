@@ -1,4 +1,4 @@
-#include "kernels/platen.h"
+#include "laws/platen.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

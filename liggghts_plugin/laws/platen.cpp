@@ -1,4 +1,4 @@
-#include "kernels/platen.h"
+#include "laws/platen.h"
 
 #include <algorithm>
 #include <cmath>
