@@ -1,6 +1,5 @@
 #include "suffuse/micromechanics/stress.h"
 
-
 namespace suffuse::micromechanics {
 namespace {
 
