@@ -18,6 +18,7 @@
 #include "verdict/flow_record.h"
 #include "verdict/fluidisation_command.h"
 #include "verdict/verdict_report.h"
+#include "verdict/verdict_sentences.h"
 
 namespace suffuse::analysis {
 namespace {

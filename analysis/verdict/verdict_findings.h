@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "contacts/contact_measures.h"
@@ -47,6 +49,7 @@ struct SampleFindings {
 struct CriteriaGroup {
   std::string name;
   std::vector<micromechanics::CriterionResult> results;
+  std::string why;  ///< these may differ among themselves
 
   std::size_t count(micromechanics::Verdict verdict) const;
   /// The verdict of all that apply; none where they differ or none applies.
@@ -74,17 +77,19 @@ struct VerdictFindings {
   std::optional<ResultRows> flow;  ///< of the run with upward flow
 };
 
+/// Names of the group of what was measured, and of the criterion that the thesis ends with.
+inline constexpr const char* kMeasuredGroup = "Z and alpha, measured";
+inline constexpr const char* kChapter4 = "Chapter 4 of the thesis";
+
+inline constexpr std::array<micromechanics::Verdict, 3> kVerdicts{micromechanics::Verdict::stable,
+                                                                  micromechanics::Verdict::transitional,
+                                                                  micromechanics::Verdict::unstable};
+
+/// The result of that criterion; null if there is none.
+const micromechanics::CriterionResult* find(const std::vector<micromechanics::CriterionResult>& results,
+                                            std::string_view name);
+
 /// Everything but the sample, which is measured before.
 VerdictFindings find_verdicts(const VerdictInput& input, std::optional<SampleFindings> sample);
-
-/// One sentence: what the thesis's own measure, the best of those at hand, says of the soil.
-std::string headline(const VerdictInput& input, const VerdictFindings& findings);
-/// How many criteria say what, and which groups are of one mind.
-std::vector<std::string> agreement_sentences(const VerdictFindings& findings);
-/// Which are not, and why that may be.
-std::vector<std::string> disagreement_sentences(const VerdictInput& input, const VerdictFindings& findings);
-
-/// A measured number with four digits; "-" where there is none.
-std::string measured_text(const Record& record, const char* name);
 
 }  // namespace suffuse::analysis

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "suffuse/micromechanics/constraint_ratio.h"
+#include "verdict/verdict_sentences.h"
 
 namespace suffuse::analysis {
 namespace {

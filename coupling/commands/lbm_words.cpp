@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lbm_words_of_coupling.h"
 #include "lbm_words_of_runs.h"
 #include "lbm_words_of_water.h"
 
@@ -29,12 +30,22 @@ void read_named(const Command<Request>& command, ArgumentReader& reader, LAMMPS_
   requests.push_back(request);
 }
 
+/// The lines whose words go into an LbmRequest.
+const std::vector<Command<LbmRequest>>& commands_of_requests() {
+  static const std::vector<Command<LbmRequest>> lines = [] {
+    std::vector<Command<LbmRequest>> all = commands_of_water();
+    for (const Command<LbmRequest>& line : commands_of_coupling()) all.push_back(line);
+    return all;
+  }();
+  return lines;
+}
+
 }  // namespace
 
 const std::vector<CommandFacts>& lbm_commands() {
   static const std::vector<CommandFacts> all = [] {
     std::vector<CommandFacts> commands;
-    for (const auto& command : commands_of_water()) commands.push_back(facts_of(command));
+    for (const auto& command : commands_of_requests()) commands.push_back(facts_of(command));
     for (const CommandFacts& facts : commands_of_runs()) commands.push_back(facts);
     return commands;
   }();
@@ -63,7 +74,7 @@ bool read_request(const std::string& name, ArgumentReader& reader, LAMMPS_NS::LA
                [](const OutputRequest& output) { return files_of(output); });
     return true;
   }
-  for (const auto& command : commands_of_water())
+  for (const auto& command : commands_of_requests())
     if (command.name == name) {
       read_words(command, reader, lmp, request);
       if (command.only_resolved) request.resolved_words.push_back(name);
@@ -74,7 +85,7 @@ bool read_request(const std::string& name, ArgumentReader& reader, LAMMPS_NS::LA
 
 std::vector<KeptWord> kept_words(const SettingsOfState& state) {
   std::vector<KeptWord> all;
-  for (const auto& command : commands_of_water())
+  for (const auto& command : commands_of_requests())
     for (const auto* words : {&command.first, &command.words})
       for (const auto& word : *words) {
         const auto value = word.kept ? word.kept(state) : std::nullopt;

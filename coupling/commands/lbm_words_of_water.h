@@ -7,7 +7,7 @@
 
 namespace suffuse::coupling {
 
-/// The lines that say what the water is like and what drives it: `lbm method` to `lbm guard`.
-const std::vector<Command<LbmRequest>>& commands_of_water();
+/// The lines that say what the water is like and what drives it: `lbm method` to `lbm collision`.
+std::vector<Command<LbmRequest>> commands_of_water();
 
 }  // namespace suffuse::coupling

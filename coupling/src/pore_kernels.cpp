@@ -52,7 +52,7 @@ template <class Visit>
   return kLaneNumbers < static_cast<float>(count) ? Floats{} + 1.f : Floats{};
 }
 
-/// A unit sphere seen through the kernel w = (15/8 pi) (1 - t^2), t < 1 the distance from the place of
+/// A unit sphere seen through the window w = (15/8 pi) (1 - t^2), t < 1 the distance from the place of
 /// interest, whose distance from the sphere's centre is q < 2. Integrals over shells of that t: of
 /// w over the sphere's surface, and of w over its inside.
 struct Smoothed {

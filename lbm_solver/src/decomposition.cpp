@@ -70,15 +70,16 @@ Decomposition Decomposition::from_cuts(MPI_Comm communicator, std::array<std::ve
   if (d.ranks() != size)
     throw_user_error({"fluid lattice", "rank grid", fmt::format("{}", fmt::join(d.rank_grid_, "x")),
                       fmt::format("hold {} ranks", size), ""});
+  Index3 coordinates{};
   for_each_cell({{0, 0, 0}, d.rank_grid_}, [&](int i, int j, int k) {
-    if (rank_at({i, j, k}) == d.rank_) d.coordinates_ = {i, j, k};
+    if (rank_at({i, j, k}) == d.rank_) coordinates = {i, j, k};
   });
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto place = static_cast<std::size_t>(d.coordinates_[a]);
+    const auto place = static_cast<std::size_t>(coordinates[a]);
     d.local_.lo[a] = cuts[a][place];
     d.local_.hi[a] = cuts[a][place + 1];
     for (int side = 0; side < 2; ++side) {
-      Index3 there = d.coordinates_;
+      Index3 there = coordinates;
       there[a] = (there[a] + (side == 1 ? 1 : d.rank_grid_[a] - 1)) % d.rank_grid_[a];
       d.neighbours_[2 * a + static_cast<std::size_t>(side)] = rank_at(there);
     }

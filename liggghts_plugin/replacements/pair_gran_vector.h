@@ -83,6 +83,7 @@ class PairGranVector : public PairGranProxy {
   bool lists_are_newer_ = true;  ///< LIGGGHTS's own loop has moved the springs since we took them
   bool springs_are_newer_ = false;
   std::vector<int> first_, second_;  ///< all pairs, in the order of the lists
+  static constexpr std::uint32_t kNoTwin = ~0u;
   std::vector<std::uint32_t> twin_;  ///< the same pair, seen from the other side of a periodic face
   std::vector<suffuse::grains::Quad> springs_;
   std::vector<int> active_first_, active_second_, active_motion_, active_receiver_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "kernels/expected_values.h"
+#include "laws/expected_values.h"
 #include "style_support.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"

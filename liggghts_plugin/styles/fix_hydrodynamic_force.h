@@ -12,7 +12,7 @@ FixStyle(hydrodynamic/force, FixHydrodynamicForce)
 #include <vector>
 
 #include "fix.h"
-#include "kernels/grain_record.h"
+#include "laws/grain_record.h"
 
 namespace LAMMPS_NS {
 

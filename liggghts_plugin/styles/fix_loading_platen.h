@@ -14,7 +14,7 @@ FixStyle(loading/platen, FixLoadingPlaten)
 #include <vector>
 
 #include "fix.h"
-#include "kernels/platen.h"
+#include "laws/platen.h"
 
 namespace suffuse {
 class ArgumentReader;
@@ -25,7 +25,7 @@ namespace LAMMPS_NS {
 /// `fix ID group loading/platen upper|lower xplane|yplane|zplane POSITION stress P | fixed [opening D]
 /// [collect L] [classes D1 D2 ...] [speed V] [mass M] [damping Z] [area A] [type T]`: a rigid, smooth,
 /// perforated plate that loads the grains of the group. Reference page: docs/reference/fix_loading_platen.md;
-/// physics: kernels/platen.h.
+/// physics: laws/platen.h.
 ///
 /// Grains that have passed by `collect` are moved out of the box just before LIGGGHTS hands grains to their
 /// ranks, which drops them: contact histories and other fixes see the same grains until then, in whatever

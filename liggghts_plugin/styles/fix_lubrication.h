@@ -13,7 +13,7 @@ FixStyle(lubrication, FixLubrication)
 #include <vector>
 
 #include "fix.h"
-#include "kernels/lubrication.h"
+#include "laws/lubrication.h"
 
 namespace LAMMPS_NS {
 
@@ -22,7 +22,7 @@ class PairGran;
 /// fix ID group lubrication viscosity MU outer H inner H [density RHO] [every N] [walls xplane X ...]:
 /// adds the forces of the viscous films between grains of the group, and between them and planes at rest,
 /// whose gap is smaller than `outer`. Reference page: docs/reference/fix_lubrication.md; physics:
-/// kernels/lubrication.h.
+/// laws/lubrication.h.
 class FixLubrication : public Fix {
  public:
   FixLubrication(LAMMPS* lmp, int narg, char** arg);

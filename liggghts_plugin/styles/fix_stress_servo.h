@@ -21,7 +21,7 @@ namespace LAMMPS_NS {
 class FixContactSampler;
 
 /// fix ID group stress/servo PATH ...: deforms the periodic box along a stress path. Reference page:
-/// docs/reference/fix_stress_servo.md. Control law: kernels/stress_servo.h.
+/// docs/reference/fix_stress_servo.md. Control law: laws/stress_servo.h.
 class FixStressServo : public Fix {
  public:
   FixStressServo(LAMMPS* lmp, int narg, char** arg);

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "kernels/stress_servo.h"
+#include "laws/stress_servo.h"
 #include "style_support.h"
 
 namespace suffuse {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "kernels/stress_servo.h"
+#include "laws/stress_servo.h"
 #include "servo_network.h"
 
 namespace suffuse {

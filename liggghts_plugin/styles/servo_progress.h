@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kernels/stress_servo.h"
+#include "laws/stress_servo.h"
 
 namespace suffuse {
 

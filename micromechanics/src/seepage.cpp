@@ -14,13 +14,6 @@ double critical_gradient_of_fines(double porosity, double grain_density, double 
   return std::min(1.0, stress_reduction) * critical_gradient(porosity, grain_density, fluid);
 }
 
-double critical_gradient_by_mean_stress(double porosity, double grain_density, double stress_reduction,
-                                        const LayerStress& layer, const SeepageFluid& fluid) {
-  const double alpha = std::min(1.0, stress_reduction);
-  const double normalised = layer.stress / (fluid.density * fluid.gravity * layer.thickness);
-  return alpha / (1 - alpha / 2) * (normalised + critical_gradient(porosity, grain_density, fluid) / 2);
-}
-
 double critical_gradient_by_top_stress(double porosity, double grain_density, double stress_reduction,
                                        const LayerStress& layer, const SeepageFluid& fluid) {
   const double normalised = layer.stress / (fluid.density * fluid.gravity * layer.thickness);

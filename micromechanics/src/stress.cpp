@@ -1,7 +1,5 @@
 #include "suffuse/micromechanics/stress.h"
 
-#include <cmath>
-
 namespace suffuse::micromechanics {
 namespace {
 
@@ -47,12 +45,6 @@ double mean_stress(const Mat3& stress) {
 
 double axial_deviatoric_stress(const Mat3& stress, int axis) {
   return stress(axis, axis) - (stress.trace() - stress(axis, axis)) / 2;
-}
-
-double deviatoric_stress_invariant(const Mat3& stress) {
-  const Mat3 symmetric = (stress + stress.transpose()) / 2;
-  const Mat3 deviator = symmetric - mean_stress(symmetric) * Mat3::Identity();
-  return std::sqrt(1.5 * deviator.cwiseProduct(deviator).sum());
 }
 
 }  // namespace suffuse::micromechanics

@@ -30,7 +30,7 @@ int report(std::string_view what) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace suffuse::analysis;
+  using namespace suffuse::study;
   CLI::App app{kDescription, "suffuse-study"};
   app.set_version_flag("--version", "suffuse-study " SUFFUSE_VERSION);
   std::string file;

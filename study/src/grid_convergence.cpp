@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 using Kind = GridConvergence::Kind;
@@ -114,4 +114,4 @@ std::vector<std::size_t> runs_to_extrapolate(const std::vector<double>& spacings
   return apart.size() == 3 ? apart : finest_of(spacings, 1);
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

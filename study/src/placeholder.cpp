@@ -1,6 +1,6 @@
 #include "suffuse/study/placeholder.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 std::string with_value(std::string text, std::string_view placeholder, std::string_view value) {
   for (std::size_t at = 0; (at = text.find(placeholder, at)) != text.npos; at += value.size())
@@ -8,4 +8,4 @@ std::string with_value(std::string text, std::string_view placeholder, std::stri
   return text;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

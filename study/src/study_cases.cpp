@@ -9,7 +9,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/common/script_variables.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 constexpr std::size_t kLongestName = 120;  // of a folder; file systems take 255 bytes
@@ -109,4 +109,4 @@ std::string variables_text(const VariableValues& variables) {
   return joined(variables, ", ");
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -9,7 +9,7 @@
 #include "files/record_table.h"
 #include "suffuse/study/study_table.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 double spacing_of(const StudyRow& row, const StudyExtrapolationRule& rule) {
@@ -71,8 +71,8 @@ std::string extrapolation_titles(const Study& study) {
   if (!study.extrapolate) return "";
   std::string titles;
   for (const StudyQuantity& quantity : study.quantities)
-    titles +=
-        fmt::format(",{0}_extrapolated,{0}_error_bar,{0}_order,{0}_convergence", csv_text(quantity.name));
+    titles += fmt::format(",{0}_extrapolated,{0}_error_bar,{0}_order,{0}_convergence",
+                          analysis::csv_text(quantity.name));
   return titles + ",extrapolated_from";
 }
 
@@ -85,10 +85,10 @@ std::string extrapolation_cells(const Study& study, const std::vector<StudyExtra
   if (group == groups.end()) return std::string(4 * study.quantities.size() + 1, ',');
   std::string cells;
   for (const GridConvergence& one : group->of_quantities)
-    cells += fmt::format(",{},{},{},{}", one.value ? full_precision(*one.value) : "",
+    cells += fmt::format(",{},{},{},{}", one.value ? analysis::full_precision(*one.value) : "",
                          one.error_bar ? fmt::format("{:.6g}", *one.error_bar) : "",
                          one.observed_order ? fmt::format("{:.4g}", *one.observed_order) : "",
-                         csv_text(to_string(one.kind)));
+                         analysis::csv_text(to_string(one.kind)));
   return cells + fmt::format(",{}", group->resolutions);
 }
 
@@ -99,4 +99,4 @@ std::string to_text(const GridConvergence& convergence) {
   return text + fmt::format(" ({})", to_string(convergence.kind));
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -13,7 +13,7 @@
 #include "suffuse/common/toml_file.h"
 #include "suffuse/study/placeholder.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 namespace files = std::filesystem;
@@ -126,21 +126,22 @@ std::vector<SweepBlock> sweeps_of(const Section& root) {
   return blocks;
 }
 
-CsvCell::Take take_of(const Section& section) {
+analysis::CsvCell::Take take_of(const Section& section) {
   const std::string name = section.text("take", "last");
-  const std::pair<const char*, CsvCell::Take> names[] = {{"last", CsvCell::Take::last},
-                                                         {"first", CsvCell::Take::first},
-                                                         {"largest", CsvCell::Take::largest},
-                                                         {"smallest", CsvCell::Take::smallest},
-                                                         {"mean", CsvCell::Take::mean}};
+  const std::pair<const char*, analysis::CsvCell::Take> names[] = {
+      {"last", analysis::CsvCell::Take::last},
+      {"first", analysis::CsvCell::Take::first},
+      {"largest", analysis::CsvCell::Take::largest},
+      {"smallest", analysis::CsvCell::Take::smallest},
+      {"mean", analysis::CsvCell::Take::mean}};
   for (const auto& [known, take] : names)
     if (name == known) return take;
   section.complain("take", name, "be last, first, largest, smallest or mean");
 }
 
 /// Without `column`: the `value` in the row of this `quantity`, as `report ... write` leaves it.
-CsvCell cell_of(const Section& section, const std::string& name) {
-  CsvCell cell;
+analysis::CsvCell cell_of(const Section& section, const std::string& name) {
+  analysis::CsvCell cell;
   cell.file = section.text("file");
   if (cell.file.empty()) section.complain("file", "not there", "name a CSV file");
   cell.column = section.text("column", "value");
@@ -166,10 +167,10 @@ void read_reference(const Section& section, const toml::node& node, StudyQuantit
   }
   if (const toml::table* table = node.as_table()) {
     const Section reference(section.file(), "quantity.reference", table, {"file", "column", "where"});
-    CsvCell cell = cell_of(reference, quantity.name);
+    analysis::CsvCell cell = cell_of(reference, quantity.name);
     if (quantity.source.empty()) quantity.source = cell.file;
     cell.file = (files::path(section.file()).parent_path() / cell.file).string();
-    quantity.reference = read_csv_cell(cell, section.file());
+    quantity.reference = analysis::read_csv_cell(cell, section.file());
   } else {
     quantity.reference = section.number("reference", 0, -HUGE_VAL);
     if (quantity.source.empty())
@@ -258,7 +259,7 @@ StudyExtrapolationRule extrapolation_of(const Section& root, const Study& study)
   const auto require_size = [&](const std::string& name, const std::string& value) {
     if (name != rule.variable) return;
     double size = 0;
-    if (!parse_number(value, size) || !(size > 0) || !std::isfinite(size))
+    if (!analysis::parse_number(value, size) || !(size > 0) || !std::isfinite(size))
       section.complain(key, name + " = " + value, "have numbers > 0 in all runs");
   };
   for (const SweepBlock& block : study.sweeps)
@@ -318,4 +319,4 @@ Study read_study(const std::string& path) {
   return study;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

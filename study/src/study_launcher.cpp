@@ -12,7 +12,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/study/placeholder.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 namespace files = std::filesystem;
@@ -33,7 +33,7 @@ bool is_on_path(const std::string& name) {
 
 /// scripts/mpirun of the source tree above the program, or suffuse-mpirun beside an installed one.
 std::string own_mpirun() {
-  const files::path folder = program_folder();
+  const files::path folder = analysis::program_folder();
   if (can_run(folder / "suffuse-mpirun")) return (folder / "suffuse-mpirun").string();
   for (files::path above = folder; above.has_relative_path(); above = above.parent_path())
     if (can_run(above / "scripts/mpirun")) return (above / "scripts/mpirun").string();
@@ -73,4 +73,4 @@ bool StudyLauncher::is_srun() const {
   return !words_.empty() && files::path(words_.front()).filename() == "srun";
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

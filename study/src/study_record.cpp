@@ -14,7 +14,7 @@
 #include "suffuse/common/progress.h"
 #include "suffuse/common/safe_file.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 namespace files = std::filesystem;
@@ -166,4 +166,4 @@ RunRecord record_of(const ProcessEnd& end, const std::string& log, double limit,
   return record;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -21,7 +21,7 @@
 #include "suffuse/study/placeholder.h"
 #include "suffuse/study/timed_process.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 namespace files = std::filesystem;
@@ -34,7 +34,7 @@ std::string find_program(const std::string& given) {
       throw_user_error({kWho, "--program", given, "be a program that can be run", ""});
     return files::absolute(given).string();
   }
-  const files::path beside = program_folder() / "suffuse";  // without /proc, PATH must do
+  const files::path beside = analysis::program_folder() / "suffuse";  // without /proc, PATH must do
   return files::exists(beside) ? beside.string() : "suffuse";
 }
 
@@ -138,8 +138,8 @@ class Runner {
   }
 
   static void print_command(const std::string& folder, const std::vector<std::string>& words) {
-    fmt::print("mkdir -p {0} && cd {0} &&", shell_word(folder));
-    for (const std::string& word : words) fmt::print(" {}", shell_word(word));
+    fmt::print("mkdir -p {0} && cd {0} &&", analysis::shell_word(folder));
+    for (const std::string& word : words) fmt::print(" {}", analysis::shell_word(word));
     fmt::print("\n");
   }
 
@@ -265,12 +265,12 @@ class Runner {
   /// A quantity that a run lacks is the study's mistake, unless others have it: then this run went wrong.
   void read_values(const std::string& folder, StudyRow& row) {
     for (const StudyQuantity& quantity : study_.quantities) {
-      CsvCell cell = quantity.cell;
+      analysis::CsvCell cell = quantity.cell;
       cell.file = (files::path(folder) / cell.file).string();
       std::string problem;
       try {
         require_file(quantity, folder);
-        const double value = read_csv_cell(cell, study_.file + ": " + quantity.name);
+        const double value = analysis::read_csv_cell(cell, study_.file + ": " + quantity.name);
         if (std::isfinite(value)) {
           row.values.emplace_back(value);
           continue;
@@ -325,7 +325,7 @@ class Runner {
                                    "--output",
                                    figure};
     if (study_.extrapolate) words.insert(words.end(), {"--extrapolated", study_.extrapolate->variable});
-    make_figure("accuracy_and_time.py", words, kWho);
+    analysis::make_figure("accuracy_and_time.py", words, kWho);
     fmt::print("{}\n", figure);
   }
 
@@ -346,4 +346,4 @@ int run_study(const Study& study, const StudyRunSettings& settings) {
   return Runner(study, settings).run();
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -14,7 +14,7 @@
 #include "suffuse/common/safe_file.h"
 #include "suffuse/study/study_extrapolation.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -22,7 +22,7 @@ using Cells = std::vector<std::string>;
 constexpr double kOtherLoad = 0.15;  // cores kept busy by others above which times are called disturbed
 
 std::string number_or(const std::optional<double>& value, const char* otherwise) {
-  return value ? full_precision(*value) : otherwise;
+  return value ? analysis::full_precision(*value) : otherwise;
 }
 
 bool has_reference(const StudyQuantity& quantity) {
@@ -271,25 +271,25 @@ void StudyTable::write_csv(const std::string& path) const {
   for (const auto& [name, value] : study_.fixed) line += name + ',';
   line += "status,wall_s,core_s,other_cores";
   for (const StudyQuantity& quantity : study_.quantities)
-    line += fmt::format(",{0},{0}_reference,{0}_error", csv_text(quantity.name));
+    line += fmt::format(",{0},{0}_reference,{0}_error", analysis::csv_text(quantity.name));
   file.write(line + ",error,front,is_reference,reason,notes" + extrapolation_titles(study_) + '\n');
   const std::vector<StudyExtrapolation> groups = extrapolations(study_, rows_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const StudyRow& row = rows_[i];
     line.clear();
-    for (const auto& [name, value] : row.run.swept) line += csv_text(value) + ',';
-    for (const auto& [name, value] : study_.fixed) line += csv_text(value) + ',';
+    for (const auto& [name, value] : row.run.swept) line += analysis::csv_text(value) + ',';
+    for (const auto& [name, value] : study_.fixed) line += analysis::csv_text(value) + ',';
     line += fmt::format("{},{:.4g},{:.4g},{:.2f}", to_string(row.record.status), row.record.wall,
                         row.record.core, row.record.other_cores);
     for (std::size_t k = 0; k < study_.quantities.size(); ++k)
       line += fmt::format(",{},{},{}", number_or(row.values[k], ""), number_or(target_of(k), ""),
                           row.errors[k] ? fmt::format("{:.6g}", *row.errors[k]) : "");
     line += fmt::format(",{},{:d},{:d},{},{}", row.error ? fmt::format("{:.6g}", *row.error) : "",
-                        row.on_front, row.run.is_reference, csv_text(row.record.reason),
-                        csv_text(fmt::format("{}", fmt::join(row.record.notes, "; "))));
+                        row.on_front, row.run.is_reference, analysis::csv_text(row.record.reason),
+                        analysis::csv_text(fmt::format("{}", fmt::join(row.record.notes, "; "))));
     file.write(line + extrapolation_cells(study_, groups, i) + '\n');
   }
   file.commit();
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -19,7 +19,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/common/signal_watch.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -154,4 +154,4 @@ ProcessEnd run_timed(const ProcessCommand& command) {
   return alone.wait_for_one().second;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

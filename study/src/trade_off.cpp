@@ -1,6 +1,6 @@
 #include "suffuse/study/trade_off.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 std::vector<bool> pareto_front(const std::vector<TradeOff>& runs) {
   std::vector<bool> on_front(runs.size(), false);
@@ -40,4 +40,4 @@ double relative_error(double value, double reference) {
   return value / reference - 1;
 }
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -9,6 +9,6 @@ using namespace suffuse;
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzz::refused_or_read([&] {
     fuzz::folder().file("in.scene", "variable a index 1\n");
-    analysis::study_cases(analysis::read_study(fuzz::folder().file("study.toml", fuzz::text_of(data, size))));
+    study::study_cases(study::read_study(fuzz::folder().file("study.toml", fuzz::text_of(data, size))));
   });
 }

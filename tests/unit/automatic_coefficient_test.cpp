@@ -76,7 +76,7 @@ std::vector<Vec3> directions(int count) {
   return points;
 }
 
-/// Surface per volume of pore at a place, by summing the kernel over points on and in the spheres.
+/// Surface per volume of pore at a place, by summing the window over points on and in the spheres.
 double summed_surface_per_pore(const Vec3& place, const std::vector<LatticeSphere>& spheres) {
   static const std::vector<Vec3> points = directions(4000);
   double surface = 0, solid = 0;

@@ -1,4 +1,4 @@
-#include "kernels/expected_values.h"
+#include "laws/expected_values.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

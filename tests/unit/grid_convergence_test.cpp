@@ -9,7 +9,7 @@
 #include "files/csv_cell.h"
 #include "suffuse/study/grid_convergence.h"
 
-using namespace suffuse::analysis;
+using namespace suffuse::study;
 using Kind = GridConvergence::Kind;
 
 namespace {
@@ -114,7 +114,7 @@ TEST_CASE("resolutions a factor of 1.3 apart are taken, neighbours where there a
 // forces at the mirror images, 1.171, known to half a per cent.
 TEST_CASE("drags of a sphere at 3, 5 and 8 cells are extrapolated to the known one within their bars") {
   const auto drag = [](const char* preset, const char* time, const char* cells) {
-    CsvCell cell;
+    suffuse::analysis::CsvCell cell;
     cell.file = SUFFUSE_TEST_DATA "/../../docs/results/data/study_single_sphere.csv";
     cell.column = "drag_over_stokes";
     cell.where = {{"preset", preset},
@@ -122,7 +122,7 @@ TEST_CASE("drags of a sphere at 3, 5 and 8 cells are extrapolated to the known o
                   {"resolution", cells},
                   {"precision", "double"},
                   {"fraction", "exact"}};
-    return GridResult{1 / std::stod(cells), read_csv_cell(cell, "test")};
+    return GridResult{1 / std::stod(cells), suffuse::analysis::read_csv_cell(cell, "test")};
   };
   for (const char* time : {"1.2", "2"}) {
     const std::vector<GridResult> three{drag("default", time, "8"), drag("default", time, "5"),

@@ -1,4 +1,4 @@
-#include "kernels/lubrication.h"
+#include "laws/lubrication.h"
 
 #include <Eigen/Geometry>  // cross products
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "kernels/stress_servo.h"
+#include "laws/stress_servo.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -17,7 +17,7 @@
 #include "user_error_message.h"
 
 using namespace suffuse;
-using namespace suffuse::analysis;
+using namespace suffuse::study;
 
 namespace {
 
@@ -236,22 +236,24 @@ TEST_CASE("numbers are found in tables of results and in series, with commas in 
   const Scratch scratch;
   const std::string results = scratch.write(
       "r.csv", "# made\ncase,quantity,value,source\nA,k,1.5,\"a, b\"\nB,k,2.5,\"say \"\"x\"\"\"\n");
-  CHECK(read_csv_cell({results, "value", {{"case", "B"}, {"quantity", "k"}}, {}}, "x") == 2.5);
-  CHECK(csv_cells("A,\"a, b\",\"say \"\"x\"\"\"") == std::vector<std::string>{"A", "a, b", "say \"x\""});
-  CHECK(csv_cells(csv_text("a, \"b\"")) == std::vector<std::string>{"a, \"b\""});
+  CHECK(analysis::read_csv_cell({results, "value", {{"case", "B"}, {"quantity", "k"}}, {}}, "x") == 2.5);
+  CHECK(analysis::csv_cells("A,\"a, b\",\"say \"\"x\"\"\"") ==
+        std::vector<std::string>{"A", "a, b", "say \"x\""});
+  CHECK(analysis::csv_cells(analysis::csv_text("a, \"b\"")) == std::vector<std::string>{"a, \"b\""});
   const std::string series = scratch.write("s.csv", "t,v\n0,3\n1,-1\n2,4\n");
-  using Take = CsvCell::Take;
+  using Take = analysis::CsvCell::Take;
   const std::pair<Take, double> taken[] = {
       {Take::last, 4}, {Take::first, 3}, {Take::largest, 4}, {Take::smallest, -1}, {Take::mean, 2}};
-  for (const auto& [take, value] : taken) CHECK(read_csv_cell({series, "v", {}, take}, "x") == value);
+  for (const auto& [take, value] : taken)
+    CHECK(analysis::read_csv_cell({series, "v", {}, take}, "x") == value);
   CHECK(message_of([&] {
-          read_csv_cell({series, "w", {}, {}}, "x");
+          analysis::read_csv_cell({series, "w", {}, {}}, "x");
         }).find("no column w, must have it; it has t, v") != std::string::npos);
   CHECK(message_of([&] {
-          read_csv_cell({results, "value", {{"quantity", "m"}}, {}}, "x");
+          analysis::read_csv_cell({results, "value", {{"quantity", "m"}}, {}}, "x");
         }).find("its quantity are k") != std::string::npos);
   CHECK(message_of([&] {
-          read_csv_cell({results, "case", {{"quantity", "k"}}, {}}, "x");
+          analysis::read_csv_cell({results, "case", {{"quantity", "k"}}, {}}, "x");
         }).find("must be a number") != std::string::npos);
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "averaged/spline_kernel.h"
+#include "averaged/axis_shares.h"
 #include "averaged/staggered_grid.h"
 #include "suffuse/common/linear_algebra.h"
 

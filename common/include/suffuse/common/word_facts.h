@@ -20,9 +20,7 @@ struct NumberRange {
   std::string rule() const { return "be " + text(); }
 };
 
-inline constexpr NumberRange kAnyNumber{};
 inline constexpr NumberRange kPositive{0, true};
-inline constexpr NumberRange kNotNegative{0, false};
 constexpr NumberRange positive_up_to(double most) {
   return {0, true, most};
 }

@@ -40,7 +40,7 @@ double largest_permeability_error(double cells_per_sauter_diameter);
 /// Measures the pores in the cells of one rank: the surface of grains in the neighbourhood of a cell over the
 /// volume between them.
 ///
-/// The neighbourhood of each sphere's surface and volume is its own radius: they are seen through the kernel
+/// The neighbourhood of each sphere's surface and volume is its own radius: they are seen through the window
 /// 1 - (t/R)^2, t < R the distance, so that fine grains and coarse ones count over their own size. Both are
 /// radial functions of closed form about the sphere's centre. A twentieth is added to the volume between the
 /// grains, which may come out as nothing. Walls count as nothing.

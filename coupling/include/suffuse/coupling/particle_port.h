@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "kernels/grain_record.h"
+#include "laws/grain_record.h"
 
 namespace suffuse::coupling {
 

@@ -31,9 +31,6 @@ struct CollisionSettings {
 constexpr double viscosity_of(double relaxation_time) {
   return (relaxation_time - 0.5) / 3;
 }
-constexpr double relaxation_time_of(double viscosity) {
-  return 3 * viscosity + 0.5;
-}
 
 /// Whether it has two relaxation times, tied by `magic`.
 constexpr bool has_magic(CollisionOperator collision_operator) {

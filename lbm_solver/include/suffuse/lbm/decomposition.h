@@ -31,7 +31,6 @@ class Decomposition {
   MPI_Comm communicator() const { return communicator_; }
   const Index3& cells() const { return cells_; }
   const Index3& rank_grid() const { return rank_grid_; }
-  const Index3& coordinates() const { return coordinates_; }
 
   /// The cells of this rank, in the numbering of the whole box.
   const CellBox& local_box() const { return local_; }
@@ -49,7 +48,7 @@ class Decomposition {
  private:
   MPI_Comm communicator_ = MPI_COMM_NULL;
   int rank_ = 0;
-  Index3 cells_{}, rank_grid_{}, coordinates_{};
+  Index3 cells_{}, rank_grid_{};
   CellBox local_;
   std::array<int, kFaces> neighbours_{};
 };

@@ -44,7 +44,6 @@ class Units {
       const;  ///< U dx / nu; below about 10 the flow between neighbouring cells stays smooth
   double density_difference() const;  ///< 3 dp_lattice
 
-  double length_to_lattice(double metres) const { return metres / spacing_; }
   double time_to_lattice(double seconds) const { return seconds / time_step_; }
   double time_to_si(double steps) const { return steps * time_step_; }
   /// An interval of so many seconds > 0, rounded to whole steps: one at least, and kMostSteps at most.

@@ -17,16 +17,15 @@ double critical_gradient(double porosity, double grain_density, const SeepageFlu
 double critical_gradient_of_fines(double porosity, double grain_density, double stress_reduction,
                                   const SeepageFluid& fluid = {});
 
-/// Li and Fannin's envelope for upward flow (key: lifannin2012), of a layer of thickness Δz with the mean
-/// effective stress σ'_m in it at the onset: i_cr = α/(1 − α/2) [σ'_m/(γ_w Δz) + γ'/(2γ_w)], α up to 1. The
-/// thesis shows it without a formula. With the stress σ'_t on the layer, σ'_m = σ'_t + (γ' − i γ_w)Δz/2, it
-/// is the same as i_cr = α [σ'_t/(γ_w Δz) + γ'/γ_w]: Terzaghi's heave under a surcharge for α = 1.
+/// What rests on a layer.
 struct LayerStress {
-  double stress = 0;     ///< σ'_m or σ'_t, Pa
+  double stress = 0;     ///< σ'_t, Pa
   double thickness = 0;  ///< Δz, m
 };
-double critical_gradient_by_mean_stress(double porosity, double grain_density, double stress_reduction,
-                                        const LayerStress& layer, const SeepageFluid& fluid = {});
+/// Li and Fannin's envelope for upward flow (key: lifannin2012), of a layer of thickness Δz under the
+/// effective stress σ'_t: i_cr = α [σ'_t/(γ_w Δz) + γ'/γ_w], α up to 1; Terzaghi's heave under a surcharge
+/// for α = 1. The thesis shows it without a formula. Printed with the mean stress in the layer at the onset,
+/// σ'_m = σ'_t + (γ' − i γ_w)Δz/2, it is i_cr = α/(1 − α/2) [σ'_m/(γ_w Δz) + γ'/(2γ_w)].
 double critical_gradient_by_top_stress(double porosity, double grain_density, double stress_reduction,
                                        const LayerStress& layer, const SeepageFluid& fluid = {});
 

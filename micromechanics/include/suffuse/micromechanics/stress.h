@@ -36,7 +36,4 @@ double mean_stress(const Mat3& stress);
 /// q = σ_aa − (σ_bb + σ_cc)/2, a the axis (0, 1, 2); signed: negative in extension along the axis.
 double axial_deviatoric_stress(const Mat3& stress, int axis);
 
-/// Invariant q = √(3/2 s:s) with s the symmetric deviator; equals |axial| in an axisymmetric state.
-double deviatoric_stress_invariant(const Mat3& stress);
-
 }  // namespace suffuse::micromechanics

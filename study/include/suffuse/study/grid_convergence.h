@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// What a run gives at a spacing; any unit, the same for all.
 struct GridResult {
@@ -50,4 +50,4 @@ const char* to_string(GridConvergence::Kind kind);
 /// the finest first. Of equal spacings the first counts.
 std::vector<std::size_t> runs_to_extrapolate(const std::vector<double>& spacings);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -5,7 +5,7 @@
 
 #include "suffuse/study/study_file.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// One run of a study.
 struct StudyCase {
@@ -26,4 +26,4 @@ std::vector<StudyCase> study_cases(const Study& study);
 /// "resolution=5, precision=float".
 std::string variables_text(const VariableValues& variables);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -8,7 +8,7 @@
 #include "suffuse/study/grid_convergence.h"
 #include "suffuse/study/study_file.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 struct StudyRow;
 
@@ -32,4 +32,4 @@ std::string extrapolation_cells(const Study& study, const std::vector<StudyExtra
 /// "1.158 ± 0.019 (order 1.4)" or "no value: oscillates".
 std::string to_text(const GridConvergence& convergence);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

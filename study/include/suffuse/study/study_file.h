@@ -9,7 +9,7 @@
 #include "files/csv_cell.h"
 #include "suffuse/study/study_launcher.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// Script variables with their values as `-var` takes them, in the order of the file.
 using VariableValues = std::vector<std::pair<std::string, std::string>>;
@@ -20,7 +20,7 @@ using SweepBlock = std::vector<std::pair<std::string, std::vector<std::string>>>
 /// What is read from every run, and what it should be.
 struct StudyQuantity {
   std::string name;
-  CsvCell cell;                     ///< file: relative to the folder of the run
+  analysis::CsvCell cell;           ///< file: relative to the folder of the run
   std::optional<double> reference;  ///< without one it is only reported, unless `by_finest`
   bool by_finest = false;           ///< the reference is what the finest run gives
   std::string source;               ///< where the reference is from
@@ -60,4 +60,4 @@ struct Study {
 /// Throws UserError with the key that is wrong.
 Study read_study(const std::string& path);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

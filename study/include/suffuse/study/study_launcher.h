@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// What starts the ranks of a study's runs: "srun --exact -n {ranks}", say.
 class StudyLauncher {
@@ -27,4 +27,4 @@ class StudyLauncher {
   std::vector<std::string> words_;
 };
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

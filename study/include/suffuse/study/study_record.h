@@ -6,7 +6,7 @@
 
 #include "suffuse/study/timed_process.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// The screen output of a run, in its folder.
 inline constexpr const char* kRunLog = "log.txt";
@@ -48,4 +48,4 @@ std::string kind_of_note(const std::string& note);
 /// what stands before the message; empty where there is none.
 std::string last_error_in(const std::string& log);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

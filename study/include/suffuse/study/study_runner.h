@@ -5,7 +5,7 @@
 #include "suffuse/study/study_file.h"
 #include "suffuse/study/study_table.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// How a study is run.
 struct StudyRunSettings {
@@ -23,4 +23,4 @@ struct StudyRunSettings {
 /// UserError for what is wrong with the study.
 int run_study(const Study& study, const StudyRunSettings& settings);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -8,7 +8,7 @@
 #include "suffuse/study/study_record.h"
 #include "suffuse/study/trade_off.h"
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// Which seconds an error is held against.
 enum class StudyTime { wall, core };
@@ -74,4 +74,4 @@ class StudyTable {
   std::vector<StudyRow> rows_;
 };
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

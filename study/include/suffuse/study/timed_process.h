@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// How a program ended, and what it took.
 struct ProcessEnd {
@@ -61,4 +61,4 @@ class TimedProcesses {
 /// One program, from start to end.
 ProcessEnd run_timed(const ProcessCommand& command);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-namespace suffuse::analysis {
+namespace suffuse::study {
 
 /// What a run cost and how wrong it was. Without an error (a run that failed, or the reference itself) it
 /// takes no part.
@@ -26,4 +26,4 @@ std::optional<std::size_t> most_accurate(const std::vector<TradeOff>& runs);
 /// value/reference − 1, positive where the value is too large. The reference is not 0.
 double relative_error(double value, double reference);
 
-}  // namespace suffuse::analysis
+}  // namespace suffuse::study

@@ -28,7 +28,7 @@ struct AveragedFlowSetup {
 ///   rho (e u - q_before)/dt + rho div(q u) = e s - b u + b_v,   s = G - grad p + mu laplace(u)
 ///   F of a grain = z (u - v) + V s,   b = sum of z W / cell,   b_v = sum of z v W / cell
 ///
-/// e is the porosity, W the shares of a grain (spline_kernel.h), z = 3 pi mu d e F its drag coefficient
+/// e is the porosity, W the shares of a grain (axis_shares.h), z = 3 pi mu d e F its drag coefficient
 /// (drag_laws.h), p the pressure in excess of the hydrostatic one and G a driving gradient. Velocities live
 /// on the faces between cells. The drag is implicit in u, viscous stress and inertia are explicit, with as
 /// many sub-steps as they need. What the grains get the water loses, to round-off.

@@ -1,0 +1,42 @@
+#pragma once
+
+// What the sources of Hdf5File share.
+
+#include <hdf5.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "suffuse/common/hdf5_file.h"
+
+namespace suffuse {
+
+/// Closes an HDF5 identifier when it goes out of scope.
+class Id {
+ public:
+  Id(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5: cannot " + what);
+  }
+  ~Id() { close_(id_); }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+inline void ensure(herr_t status, const std::string& what) {
+  if (status < 0) throw std::runtime_error("HDF5: cannot " + what);
+}
+
+struct Hdf5File::Handle {
+  hid_t file = -1;
+  MPI_Comm communicator = MPI_COMM_NULL;
+  bool reads = false;
+  bool noted = false;
+  bool spoilt = false;  ///< a write has failed on some rank
+};
+
+}  // namespace suffuse
