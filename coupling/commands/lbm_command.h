@@ -36,9 +36,7 @@ class LbmCommand {
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
-  /// settings_now; a UserError where its cells are too small for the grains.
-  CoupledSettings settings_for_grains() const;
-  lbm::Decomposition decomposition(Vec3& low);
+  void forget_the_port();
   void build();
   void read_state();
   void warn_about_held_grains();

@@ -5,6 +5,7 @@
 
 #include "declared_words.h"
 #include "lbm_request.h"
+#include "suffuse/coupling/method_errors.h"
 
 namespace suffuse::coupling {
 
@@ -33,9 +34,10 @@ RunLine read_run(ArgumentReader& reader);
 /// `lbm plan TIME`
 double read_plan(ArgumentReader& reader);
 
-/// `lbm accuracy 3% [max_velocity U] [region ID]`
+/// `lbm accuracy 3% [of QUANTITY] [max_velocity U] [region ID]`
 struct AccuracyRequest {
-  double accuracy = 0.03;                  ///< a share
+  double accuracy = 0.03;  ///< a share
+  AccuracyOf of = AccuracyOf::permeability;
   std::optional<double> largest_velocity;  ///< m/s; else from what drives water and grains
   std::string region;
 };

@@ -158,11 +158,19 @@ const Command<AccuracyRequest>& accuracy_command() {
     Command<AccuracyRequest> accuracy{.name = "accuracy", .meaning = "chooses the lattice, in its place"};
     accuracy.only_before_run = true;
     accuracy.first = {
-        {{"accuracy", "SHARE", "", "1.4% to 20%", "", "error of the permeability to be expected"},
+        {{"accuracy", "SHARE", "", "1.4% to 30%", "", "error to be expected"},
          [](ArgumentReader& reader, LAMMPS_NS::LAMMPS*, AccuracyRequest& a) {
            a.accuracy = read_share(reader);
          }}};
     accuracy.words = {
+        D::choice<AccuracyOf>(
+            "of",
+            {{"permeability", AccuracyOf::permeability},
+             {"critical_gradient", AccuracyOf::critical_gradient},
+             {"forces", AccuracyOf::forces}},
+            [](AccuracyRequest& a) -> AccuracyOf& { return a.of; },
+            "what is to be that accurate: permeability and speeds, the gradient that lifts a bed, or the "
+            "forces on single grains"),
         D::number(lbm::kMaxVelocityWord,
                   [](AccuracyRequest& a) -> std::optional<double>& { return a.largest_velocity; }),
         D::text(

@@ -179,8 +179,10 @@ GrainQuestions::Summary GrainQuestions::summary() const {
   summary.kinetic_energy = sums.energy;
   summary.speed = std::sqrt(extremes.speed_squared);
   summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
-  for (int a = 0; a < 3; ++a)
+  for (int a = 0; a < 3; ++a) {
+    summary.low[a] = -extremes.minus_low[a];
     summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  }
   summary.packing = sums.volume / summary.extent.prod();
   if (summary.grains == 1)  // fills the box around it, whatever it does
     summary.packing = sums.volume / (lmp_->domain->prd[0] * lmp_->domain->prd[1] * lmp_->domain->prd[2]);

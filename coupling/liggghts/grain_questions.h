@@ -72,7 +72,7 @@ class GrainQuestions {
     double sauter_diameter = 0;                        ///< sum d^3/sum d^2, m
     double smallest_density = 0, largest_density = 0;  ///< kg/m^3
     double solid_volume = 0;                           ///< m^3
-    Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
+    Vec3 low = Vec3::Zero(), extent = Vec3::Zero();    ///< of the box around all grains, m
     double packing = 0;                                ///< solid volume over that of this box
     double kinetic_energy = 0;                         ///< J
     double speed = 0;                                  ///< of the fastest centre, m/s

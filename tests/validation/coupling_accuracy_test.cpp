@@ -59,18 +59,19 @@ TEST_CASE("The accuracy asked for is met on packings that nothing was fitted to,
   const double accuracy = GENERATE(0.1, 0.05, 0.03);
   const Packing packing = make_packing(name);
   const AccuracyScene scene = scene_of(packing);
-  const AccuracyChoice choice = choose_for_accuracy(accuracy, scene);
+  const AccuracyChoice choice = choose_for_accuracy({accuracy}, scene);
   CAPTURE(name, accuracy, choice.cells, choice.relaxation_time);
   CHECK(error_at(name, packing, choice.spacing) < accuracy);
   // The cheapest of a sweep from which on every finer lattice keeps to the accuracy, too.
   double least = choice.cost;
   for (double cells = choice.cells; cells > 2; cells -= 0.25) {
-    const AccuracyChoice other = choice_with_cells(cells, accuracy, scene);
+    const AccuracyChoice other = choice_with_cells(cells, {accuracy}, scene);
     if (error_at(name, packing, other.spacing) > accuracy) break;
     least = std::min(least, other.cost);
   }
   // The choice does not know that this packing errs less than most, and a cube of three diameters has steps
   // of a quarter in price from one whole number of cells to the next.
+  std::printf("%s %g: %.2f cells, %.2f\n", name.c_str(), accuracy, choice.cells, choice.cost / least);
   CAPTURE(choice.cost / least);
   CHECK(choice.cost < 5 * least);
 }
