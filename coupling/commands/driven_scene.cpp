@@ -127,7 +127,11 @@ bool has_walls_inside(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const 
 
 /// What of the script the averaged flow has not; empty: nothing.
 std::string not_averaged(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const FluidBox& box) {
-  if (!settings.resolved_words.empty()) return "it has no `lbm " + settings.resolved_words.front() + "`";
+  const LbmRequest standard;
+  const lbm::PartialSolidSettings &solids = settings.solids.cells, &usual = standard.solids.cells;
+  if (settings.collision.collision_operator != standard.collision.collision_operator ||
+      solids.solid_operator != usual.solid_operator || solids.weighting != usual.weighting)
+    return "the script asks for operators of the resolved flow";
   if (settings.effects.turbulence == Switch::on || settings.effects.lubrication == Switch::on)
     return "it has neither turbulence nor films";
   if (has_walls_inside(lmp, settings, box)) return "it has no walls inside the water";
@@ -150,7 +154,7 @@ DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const
     return driven;
   }
   const bool grains_move = port.anything_moves();
-  scene.fine_diameter = fine_diameter(port, grains);
+  scene.counted_diameter = counted_diameter(fine_diameter(port, grains), grains.sauter_diameter);
   scene.solid_fraction = grains.packing;
   const Drive drive = drive_of(lmp, settings, grains, grains_move, scene.size);
   const double porosity = 1 - std::min(grains.packing, 0.7);

@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "../liggghts/instance.h"
 #include "driven_scene.h"
 #include "run_price.h"
 #include "styles/style_support.h"
+#include "suffuse/common/collective_text.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::coupling {
 
@@ -50,7 +54,7 @@ std::vector<AccuracyChoice> choices_beside(const AccuracyChoice& chosen, const A
                                            const AccuracyScene& scene) {
   std::vector<AccuracyChoice> choices;
   const auto add = [&](double cells) {
-    if (fitting_spacing(scene.size, scene.fine_diameter / cells) > 0)
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) > 0)
       choices.push_back(choice_with_cells(cells, wish, scene));
   };
   if (const auto averaged = averaged_choice(wish, scene)) choices.push_back(*averaged);
@@ -140,9 +144,8 @@ std::string resolved_lines(const AccuracyChoice& choice, const AccuracyScene& sc
                            const std::string& velocity_from) {
   const AccuracyErrors& errors = choice.errors;
   std::string text = fmt::format(
-      "lbm accuracy: cells      {:.3g} per diameter of the finest quarter of the grains' surface ({:.4g} m): "
-      "{}, worst packing tried {}\n",
-      choice.cells, scene.fine_diameter, percent(errors.resolution),
+      "lbm accuracy: cells      {:.3g} a diameter ({:.4g} m): {}, worst packing tried {}\n",
+      choice.cells, scene.counted_diameter, percent(errors.resolution),
       percent(largest_permeability_error(choice.cells, scene.solid_fraction)));
   if (errors.forces > 0)
     text += fmt::format("lbm accuracy: forces     {} on single grains besides\n", percent(errors.forces));
@@ -162,31 +165,37 @@ std::string resolved_lines(const AccuracyChoice& choice, const AccuracyScene& sc
   return text;
 }
 
-bool is_same(const AccuracyChoice& a, const AccuracyChoice& b) {
-  return a.averaged == b.averaged && a.spacing == b.spacing;
+/// The cheapest that keeps to what was asked for; `chosen` where none of them is known to.
+AccuracyChoice cheapest(const std::vector<PricedChoice>& choices, const AccuracyWish& wish,
+                        const AccuracyChoice& chosen) {
+  const PricedChoice* best = nullptr;
+  for (const PricedChoice& priced : choices)
+    if (keeps_to(wish, priced.choice) && (wish.resolved || priced.choice.averaged) &&
+        (best == nullptr || priced.all() < best->all()))
+      best = &priced;
+  return best == nullptr ? chosen : best->choice;
 }
 
-/// Cheaper and dearer choices beside what was chosen: error, core seconds a second of the flow, times the
-/// chosen one's.
-std::string prices_text(const std::vector<PricedChoice>& choices, const AccuracyChoice& chosen) {
-  double of_chosen = 0;
-  for (const PricedChoice& priced : choices)
-    if (is_same(priced.choice, chosen)) of_chosen = priced.all();
-  bool before = true;
+/// By rising price: error, core seconds a second of the flow, times the chosen one's.
+std::string prices_text(std::vector<PricedChoice> choices, const AccuracyChoice& chosen) {
+  const auto by_price = [](const PricedChoice& a, const PricedChoice& b) { return a.all() < b.all(); };
+  std::sort(choices.begin(), choices.end(), by_price);
+  const auto is_chosen = [&](const PricedChoice& priced) {
+    return priced.choice.averaged == chosen.averaged && priced.choice.spacing == chosen.spacing;
+  };
+  const auto place = std::find_if(choices.begin(), choices.end(), is_chosen);
   std::string text = fmt::format("lbm accuracy: {:<11}{:<26}{:>7}{:>12}{:>12}{:>8}\n", "choice", "", "error",
                                  "water", "grains", "price");
-  for (const PricedChoice& priced : choices) {
-    const AccuracyChoice& choice = priced.choice;
-    const bool here = is_same(choice, chosen);
-    if (here) before = false;
+  for (auto priced = choices.begin(); priced != choices.end(); ++priced) {
+    const AccuracyChoice& choice = priced->choice;
     const std::string what = choice.averaged ? fmt::format("averaged, {:.3g} m a cell", choice.spacing)
                                              : fmt::format("{:.3g} cells a diameter", choice.cells);
     text += fmt::format("lbm accuracy: {:<11}{:<26}{:>7}{:>12.3g}{:>12.3g}{:>8.2g}\n",
-                        here     ? "this"
-                        : before ? "cheaper"
-                                 : "dearer",
-                        what, percent(choice.errors.together()), priced.water, priced.grains,
-                        priced.all() / of_chosen);
+                        priced == place ? "this"
+                        : priced < place ? "cheaper"
+                                         : "dearer",
+                        what, percent(choice.errors.together()), priced->water, priced->grains,
+                        priced->all() / place->all());
   }
   return text + "lbm accuracy: water and grains in core seconds for a second of the flow\n";
 }
@@ -197,16 +206,17 @@ void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, Ligggh
                   LbmRequest& settings) {
   const auto [scene, velocity_from] =
       driven_scene(lmp, port, settings, request.largest_velocity, request.region);
-  AccuracyWish wish{request.accuracy, request.of};
+  AccuracyWish wish{request.accuracy.value(), request.of};
   if (settings.method_given) {
     wish.averaged = settings.averaged.has_value();
     wish.resolved = !wish.averaged;
     if (wish.averaged) wish.drag = settings.averaged->drag;
   }
-  const AccuracyChoice choice = choose_for_accuracy(wish, scene);
+  const AccuracyChoice first = choose_for_accuracy(wish, scene);
   settings.region = request.region;
   const std::vector<PricedChoice> choices =
-      priced(lmp, choices_beside(choice, wish, scene), wish, scene, settings, port);
+      priced(lmp, choices_beside(first, wish, scene), wish, scene, settings, port);
+  const AccuracyChoice choice = cheapest(choices, wish, first);
   take(choice, wish, scene, settings);
   std::string text = fmt::format("lbm accuracy: {} of the {} asked for, about {} to be expected\n",
                                  percent(wish.share), name_of(wish.of), percent(choice.errors.together()));
@@ -215,6 +225,22 @@ void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, Ligggh
   text += prices_text(choices, choice);
   tell(lmp, text + "lbm accuracy: the same is `" +
                 lattice_lines(choice, scene, wish, request.region) + "`\n");
+}
+
+void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std::string& file) {
+  const lbm::Units units(settings.units);
+  const double spacing = units.spacing(), step = units.time_step();
+  constexpr double incompressible = 1e9;
+  const double sound = settings.averaged ? incompressible : spacing / step / std::sqrt(3.);
+  const std::string who = "lbm accuracy";
+  on_first_rank(who, communicator_of(lmp), [&] {
+    SafeFile out(file, who);
+    out.write(fmt::format(
+        "variable lattice_spacing equal {}\nvariable lattice_timestep equal {}\n"
+        "variable lattice_sound equal {}\n",
+        spacing, step, sound));
+    out.commit();
+  });
 }
 
 }  // namespace suffuse::coupling

@@ -192,7 +192,13 @@ int LbmCommand::choose_substeps() {
 
 void LbmCommand::accuracy(ArgumentReader& reader) {
   const AccuracyRequest request = read_accuracy(reader);
-  require_box(lmp_, reader.who());
+  if (request.accuracy) choose_lattice(request);
+  require_lattice(reader.who());
+  if (!request.file.empty()) write_lattice(lmp_, request_, request.file);
+}
+
+void LbmCommand::choose_lattice(const AccuracyRequest& request) {
+  require_box(lmp_, "lbm accuracy");
   const bool made_port = port_ == nullptr;
   if (made_port) port_ = std::make_unique<LiggghtsPort>(lmp_);
   set_accuracy(lmp_, request, *port_, request_);

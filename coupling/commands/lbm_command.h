@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../liggghts/scene.h"
-#include "lbm_request.h"
+#include "lbm_words.h"
 #include "run_effects.h"
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -32,6 +32,7 @@ class LbmCommand {
   void clear();
   void restart(ArgumentReader& reader);
   void accuracy(ArgumentReader& reader);
+  void choose_lattice(const AccuracyRequest& request);
   void plan(ArgumentReader& reader);
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;

@@ -21,16 +21,15 @@ bool is_calibrated(const CoupledSettings& settings) {
          solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
 }
 
-/// Error of the permeability where the coefficient is calibrated; empty otherwise. `cells` a diameter of the
-/// finest quarter of the surface: the fines of a graded bed make its pores.
+/// Error of the permeability where the coefficient is calibrated; empty otherwise.
 std::string error_line(const CoupledSettings& settings, const AccuracyScene& scene, double spacing) {
   if (!is_calibrated(settings)) return "";
-  const double cells = scene.fine_diameter / spacing;
+  const double cells = scene.counted_diameter / spacing;
   return fmt::format(
       "lbm plan: expected error of the permeability: about {:.0f} % (worst packing tried: {:.0f} %), by the "
-      "{:.2g} cells per diameter of the finest quarter of the grains' surface\n",
+      "{:.2g} cells a diameter of {:.3g} m (docs/reference/lbm.md#accuracy)\n",
       100 * expected_permeability_error(cells, scene.solid_fraction),
-      100 * largest_permeability_error(cells, scene.solid_fraction), cells);
+      100 * largest_permeability_error(cells, scene.solid_fraction), cells, scene.counted_diameter);
 }
 
 std::string scene_text(const CoupledSettings& settings, const lbm::Units& units, const lbm::Index3& cells,
@@ -74,10 +73,10 @@ std::string cost_table(const TrialCosts& costs, double steps, bool grains_known)
 /// The same flow with other cells and the same relaxation time: cells grow with the third power of the
 /// resolution, steps with the second, and the grains' own steps stay.
 std::string prices_text(const TrialCosts& costs, double steps, const AccuracyScene& scene, double spacing) {
-  const double cells = scene.fine_diameter / spacing;
+  const double cells = scene.counted_diameter / spacing;
   const double water = costs.water() * steps;
   const double grains = costs.grains * steps;
-  std::string text = fmt::format("{:<22}{:>12}{:>12}\n", "cells a fine diameter", "in all", "error");
+  std::string text = fmt::format("{:<22}{:>12}{:>12}\n", "cells a diameter", "in all", "error");
   for (const int other : {2, 3, 4, 5, 6, 8, 10})
     text += fmt::format("{:<22}{:>12}{:>10.1f} %\n", other,
                         duration_text(water * std::pow(other / cells, 5) + grains),
@@ -102,8 +101,8 @@ std::string errors_table(const CoupledSettings& settings, const DrivenScene& dri
   };
   if (errors.resolution > 0)
     row("resolution", errors.resolution,
-        fmt::format("{:.2g} cells per diameter of the finest quarter of the surface",
-                    scene.fine_diameter / spacing));
+        fmt::format("{:.2g} cells a diameter of {:.3g} m", scene.counted_diameter / spacing,
+                    scene.counted_diameter));
   if (scene.velocity > 0)
     row("compressibility", errors.compressibility,
         fmt::format("Mach number {:.2g} at {:.3g} m/s, {}", expected_mach(scene, spacing, step),
@@ -134,7 +133,7 @@ void print_plan(LAMMPS_NS::LAMMPS* lmp, const RunPrice& price, const LiggghtsPor
   tell(lmp, scene_text(settings, units, price.cells, grains, scene, time, steps, price.costs.bytes) +
                 cost_table(price.costs, steps, price.grains_known) +
                 (grains.grains > 0 && !settings.averaged ? errors_table(settings, driven, units) : "") +
-                (is_calibrated(settings) && scene.fine_diameter > 0
+                (is_calibrated(settings) && scene.counted_diameter > 0
                      ? prices_text(price.costs, steps, scene, units.spacing())
                      : ""));
 }

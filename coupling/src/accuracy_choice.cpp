@@ -36,8 +36,9 @@ double distance_from_whole(double value) {
 
 /// Diameters a cell of the averaged flow: what is tried in this order, and its limits.
 constexpr double kDiameters[] = {3, 2.25, 4, 5.3, 6}, kLeastDiameters = 1.5;
-/// Its steps: shares of a grain's fall by its diameter, and of a cell that the fastest water passes.
-constexpr double kShareOfFall = 1. / 30, kCellsAStep = 0.1;
+/// Its steps: shares of a grain's fall by its diameter, of a cell that the fastest water passes, and of the
+/// time in which a flow past a grain starts, d^2/nu.
+constexpr double kShareOfFall = 1. / 30, kCellsAStep = 0.1, kShareOfStart = 0.1;
 
 /// Largest time step, and what bounds it.
 void set_time_step(AccuracyChoice& choice, double accuracy, const AccuracyScene& scene) {
@@ -85,9 +86,9 @@ double expected_mach(const AccuracyScene& scene, double spacing, double time_ste
 AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, double time_step,
                                lbm::CollisionOperator collision) {
   AccuracyErrors errors;
-  if (scene.fine_diameter > 0) 
+  if (scene.counted_diameter > 0) 
     errors.resolution = expected_permeability_error(
-        scene.fine_diameter / spacing, scene.solid_fraction > 0 ? scene.solid_fraction : kUsualSolidFraction);
+        scene.counted_diameter / spacing, scene.solid_fraction > 0 ? scene.solid_fraction : kUsualSolidFraction);
   errors.compressibility = squared(expected_mach(scene, spacing, time_step));
   errors.density = 1.5 * scene.pressure_range / scene.density * squared(time_step / spacing);
   const bool comoving = collision == lbm::CollisionOperator::trt_comoving;
@@ -95,6 +96,12 @@ AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, doubl
   errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
   if (scene.response_time > 0) errors.coupling = 0.5 * time_step / scene.response_time;
   return errors;
+}
+
+double counted_diameter(double fine, double sauter) {
+  constexpr double of_fines = 0.5, of_mean = 0.75;
+  const double mean_counts = std::clamp((fine / sauter - of_fines) / (of_mean - of_fines), 0., 1.);
+  return fine + mean_counts * std::max(0., sauter - fine);
 }
 
 double fitting_spacing(const Vec3& size, double most) {
@@ -112,14 +119,14 @@ double fitting_spacing(const Vec3& size, double most) {
 
 AccuracyChoice choice_with_cells(double cells, const AccuracyWish& wish, const AccuracyScene& scene) {
   AccuracyChoice choice;
-  choice.spacing = fitting_spacing(scene.size, scene.fine_diameter / cells);
+  choice.spacing = fitting_spacing(scene.size, scene.counted_diameter / cells);
   if (choice.spacing <= 0)
     throw_user_error({kWho, "box",
                       fmt::format("{:g} x {:g} x {:g} m", scene.size[0], scene.size[1], scene.size[2]),
                       fmt::format("be whole numbers of one cell of {:.3g} m or three quarters of it",
-                                  scene.fine_diameter / cells),
+                                  scene.counted_diameter / cells),
                       "round its sides to a common length"});
-  choice.cells = scene.fine_diameter / choice.spacing;
+  choice.cells = scene.counted_diameter / choice.spacing;
   set_time_step(choice, wish.share, scene);
   set_operators(choice, wish.share, scene);
   choice.errors = expected_errors(scene, choice.spacing, choice.time_step, choice.collision);
@@ -142,7 +149,8 @@ double averaged_spacing(const AccuracyScene& scene) {
 }
 
 double averaged_step(double spacing, const AccuracyScene& scene) {
-  double step = kCellsAStep * spacing / std::max(scene.velocity, scene.grain_speed);
+  double step = std::min(kCellsAStep * spacing / std::max(scene.velocity, scene.grain_speed),
+                         kShareOfStart * squared(scene.sauter_diameter) / scene.viscosity);
   if (scene.falling > 0)
     step = std::min(step, kShareOfFall * std::sqrt(2 * scene.smallest_diameter / scene.falling));
   return step;
@@ -159,7 +167,7 @@ void require_what_can_be_chosen(const AccuracyWish& wish, const AccuracyScene& s
                       fmt::format("be {:g} to {:g} %", 100 * kFinest, 100 * kCoarsest),
                       "finer, no packing is known well enough to tell; coarser, the formulas of "
                       "docs/results/price_of_methods.md need no run"});
-  if (!(scene.fine_diameter > 0))
+  if (!(scene.counted_diameter > 0))
     throw_user_error({kWho, "grains", "none", "be there before: cells are counted a grain",
                       "without grains write `lbm lattice` yourself"});
   if (!(scene.velocity > 0 || scene.grain_speed > 0))
@@ -171,12 +179,8 @@ void require_what_can_be_chosen(const AccuracyWish& wish, const AccuracyScene& s
 /// Cells a diameter; the most that may be chosen where none fit, to be told what is amiss with the box.
 double finest_that_fits(const AccuracyScene& scene) {
   for (double cells = kMostCells; cells > kLeastCells; cells -= kStepOfCells)
-    if (fitting_spacing(scene.size, scene.fine_diameter / cells) > 0) return cells;
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) > 0) return cells;
   return kMostCells;
-}
-
-bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice) {
-  return kScatterOfPackings * choice.errors.together() <= wish.share;
 }
 
 [[noreturn]] void refuse_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
@@ -190,6 +194,10 @@ bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice) {
 }
 
 }  // namespace
+
+bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice) {
+  return kScatterOfPackings * choice.errors.together() <= wish.share;
+}
 
 std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
   if (!wish.averaged) return "the script asks for the resolved flow";
@@ -207,7 +215,7 @@ std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const Ac
   choice.averaged = true;
   choice.precision = lbm::Precision::double_precision;
   choice.spacing = averaged_spacing(scene);
-  choice.cells = scene.fine_diameter / choice.spacing;
+  choice.cells = scene.counted_diameter / choice.spacing;
   choice.time_step = averaged_step(choice.spacing, scene);
   const AveragedErrors errors = averaged_errors(wish.drag);
   choice.errors.closure = of_quantity(errors, wish.of);
@@ -220,7 +228,7 @@ std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const Ac
 
 std::optional<AccuracyChoice> resolved_choice(const AccuracyWish& wish, const AccuracyScene& scene) {
   for (double cells = kLeastCells; cells <= kMostCells + 1e-9; cells += kStepOfCells) {
-    if (fitting_spacing(scene.size, scene.fine_diameter / cells) <= 0) continue;
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) <= 0) continue;
     const AccuracyChoice choice = choice_with_cells(cells, wish, scene);
     if (keeps_to(wish, choice)) return choice;
   }

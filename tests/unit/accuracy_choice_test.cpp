@@ -12,7 +12,7 @@ namespace {
 
 AccuracyScene bed() {
   AccuracyScene scene;
-  scene.fine_diameter = 4e-4;
+  scene.counted_diameter = 4e-4;
   scene.velocity = 0.02;
   scene.pressure_range = 50;
   scene.size = {2e-3, 2e-3, 6e-3};
@@ -93,7 +93,7 @@ TEST_CASE("What cannot be had is refused with what is missing") {
   scene = bed();
   scene.velocity = 0;
   CHECK_THAT(message_of([&] { choose_for_accuracy({0.03}, scene); }), Catch::Contains("max_velocity"));
-  scene.fine_diameter = 0;
+  scene.counted_diameter = 0;
   CHECK_THAT(message_of([&] { choose_for_accuracy({0.03}, scene); }), Catch::Contains("grains = none"));
 }
 
@@ -103,8 +103,12 @@ TEST_CASE("A bed takes the averaged flow where its drag law and its surface are 
   REQUIRE(choice.averaged);
   // Three mean diameters are 1.2 mm; 2 mm and 20 mm are whole numbers of 1 mm.
   CHECK(choice.spacing == Approx(1e-3));
-  // A thirtieth of sqrt(2 d/a), which is shorter than a tenth of a cell at 2 cm/s.
+  // A thirtieth of sqrt(2 d/a), which is shorter than a tenth of a cell at 2 cm/s, and than d^2/nu/10.
   CHECK(choice.time_step == Approx(std::sqrt(2 * 3e-4 / 6) / 30));
+  AccuracyScene held = scene;
+  held.falling = 0;
+  held.velocity = 1e-4;
+  CHECK(choose_for_accuracy({0.3}, held).time_step == Approx(4e-4 * 4e-4 / 1e-6 / 10));
   CHECK(choice.errors.surface == Approx(surface_loss(0.6) * 1e-3 / 0.015));
   CHECK(choice.errors.together() == Approx(std::hypot(0.1, choice.errors.surface)));
   CHECK_FALSE(choose_for_accuracy({0.1}, scene).averaged);
@@ -167,7 +171,7 @@ TEST_CASE("A spacing that fits is the largest up to the one wanted") {
 TEST_CASE("What a lattice errs by is the same, chosen or written") {
   AccuracyScene scene;
   scene.size = Vec3(4e-3, 4e-3, 8e-3);
-  scene.fine_diameter = 5e-4;
+  scene.counted_diameter = 5e-4;
   scene.velocity = 0.02;
   scene.grain_speed = 0.01;
   scene.pressure_range = 40;

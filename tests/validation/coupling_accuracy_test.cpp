@@ -36,7 +36,7 @@ double fine_diameter(const Packing& packing) {
 AccuracyScene scene_of(const Packing& packing) {
   AccuracyScene scene;
   scene.size = Vec3::Constant(1e-3);
-  scene.fine_diameter = 1e-3 * fine_diameter(packing);
+  scene.counted_diameter = 1e-3 * fine_diameter(packing);
   scene.velocity = 1e-4;
   scene.pressure_range = 1;
   return scene;

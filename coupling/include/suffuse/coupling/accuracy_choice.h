@@ -10,7 +10,7 @@ namespace suffuse::coupling {
 
 /// What a scene is like, for settings of a wanted accuracy; SI.
 struct AccuracyScene {
-  double fine_diameter = 0;   ///< below which a quarter of the grains' surface lies, m; 0 without grains
+  double counted_diameter = 0;  ///< counted_diameter() of the grains, m; 0 without grains
   double velocity = 0;        ///< of the fastest water expected, m/s
   double grain_speed = 0;     ///< of the fastest grains expected, m/s; 0 where none moves
   double pressure_range = 0;  ///< largest difference of pressures in the water, Pa
@@ -38,7 +38,7 @@ struct AccuracyWish {
 
 /// Errors by source, shares of the permeability or of a speed.
 struct AccuracyErrors {
-  double resolution = 0;       ///< expected_permeability_error() of the finest quarter of the surface
+  double resolution = 0;       ///< expected_permeability_error() at the counted diameter
   double compressibility = 0;  ///< Mach number squared
   double density = 0;          ///< half of the difference of densities that the pressures make
   double motion = 0;           ///< drag of grains that carry their water along
@@ -92,6 +92,9 @@ struct AccuracyChoice {
 /// grains are not resolved at all; without any velocity; no spacing fits the box.
 AccuracyChoice choose_for_accuracy(const AccuracyWish& wish, const AccuracyScene& scene);
 
+/// Is its expected error so far below the share that nine of ten packings keep to it?
+bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice);
+
 /// The least cells a diameter that keep to the share; none where no lattice does.
 std::optional<AccuracyChoice> resolved_choice(const AccuracyWish& wish, const AccuracyScene& scene);
 
@@ -101,8 +104,8 @@ AccuracyChoice choice_with_cells(double cells, const AccuracyWish& wish, const A
 
 /// The averaged flow on cells of about three mean diameters, from 1.5 to 6, that divide the box; none where
 /// there are no such cells, the grains are no bed (solid fraction below 0.3), or `not_averaged` says why.
-/// Time step: a thirtieth of the time in which the smallest grain falls by its diameter, and no more than the
-/// fastest water needs for a tenth of a cell.
+/// Time step: a thirtieth of the time in which the smallest grain falls by its diameter, a tenth of d²/ν
+/// with the mean diameter, or what the fastest water needs for a tenth of a cell, whichever is least.
 std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const AccuracyScene& scene);
 
 /// Why averaged_choice() has none, in words; empty where it has one.
@@ -112,6 +115,11 @@ std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scen
 inline constexpr double kScatterOfPackings = 1.35;
 /// Solid fraction from which on grains are a bed, whose drag is Ergun's and which carries its water along.
 inline constexpr double kLeastBed = 0.3;
+
+/// Diameter that cells are counted by, m: the mean (Sauter) of packings whose finest quarter of the surface
+/// (fine_diameter.h) is no finer than three quarters of it, as of those that the errors were measured on; of
+/// beds with much finer grains, half of it or less, that of the finest quarter, whose pores they are.
+double counted_diameter(double fine, double sauter);
 
 /// The largest spacing up to `most` that divides all three axes into whole cells, at least three quarters of
 /// it; 0 where there is none.
