@@ -85,7 +85,7 @@ RunPrice price_of_run(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& request, Liggght
   price.grains_known = past.grain_steps > 0;
   const auto grains = static_cast<double>(port.summary().grains);
   if (grains > 0 && port.anything_moves())
-    price.costs.grains = grain_seconds(parts.ranks(), past, price.settings.substeps * grains);
+    price.costs.grains = grain_seconds(parts.ranks(), past, price.settings.substeps, grains);
   price.water = parts.ranks() * price.costs.water() / step;
   price.grains = parts.ranks() * price.costs.grains / step;
   return price;

@@ -12,8 +12,10 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Grain steps a second and core where this process has not run any yet (docs/performance_dry.md).
-constexpr double kGrainStepsPerSecond = 4.5e6;
+/// Grain steps a second and core where this process has not run any yet (docs/performance_dry.md), and what
+/// ranks that share the grains take in a step for their messages, however few the grains (two ranks of one
+/// machine), s.
+constexpr double kGrainStepsPerSecond = 4.5e6, kMessagesOfAStep = 8e-6;
 
 /// The grains, held: steps of the trial move nothing, and loads go nowhere.
 class HeldGrains final : public ParticlePort {
@@ -131,10 +133,9 @@ TrialCosts trial_costs(const CoupledSettings& settings, const lbm::Decomposition
   return costs;
 }
 
-/// What so many steps of single grains take, s: at the speed of LIGGGHTS's last run, or on usual cores.
-double grain_seconds(int ranks, const PastRun& past, double grain_steps) {
-  const double speed = past.grain_steps > 0 ? past.grain_steps / past.seconds : kGrainStepsPerSecond * ranks;
-  return grain_steps / speed;
+double grain_seconds(int ranks, const PastRun& past, double steps, double grains) {
+  if (past.grain_steps > 0) return steps * grains * past.seconds / past.grain_steps;
+  return steps * (grains / (kGrainStepsPerSecond * ranks) + (ranks > 1 ? kMessagesOfAStep : 0));
 }
 
 }  // namespace suffuse::coupling

@@ -16,6 +16,7 @@
 #include "force_fix.h"
 #include "lammps.h"
 #include "modify.h"
+#include "styles/early_stop.h"
 #include "styles/fix_contact_sampler.h"
 #include "styles/fix_hydrodynamic_force.h"
 #include "suffuse/common/error.h"
@@ -254,10 +255,12 @@ PastRun GrainQuestions::past_run() const {
   const double steps = lmp_->update->nsteps;
   double seconds = lmp_->timer->array[TIME_LOOP];
   MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, lmp_->world);
+  double share = LastRun::share;
+  MPI_Allreduce(MPI_IN_PLACE, &share, 1, MPI_DOUBLE, MPI_MIN, lmp_->world);
   const double grains = static_cast<double>(lmp_->atom->natoms);
   constexpr double least_seconds = 0.02;  // well above what starting a run takes
   if (!(seconds > least_seconds) || steps * grains <= 0) return {};
-  return {steps * grains, seconds};
+  return {steps * grains, share * seconds};
 }
 
 }  // namespace suffuse::coupling

@@ -19,7 +19,7 @@ namespace suffuse::coupling {
 /// LIGGGHTS's last run in this process.
 struct PastRun {
   double grain_steps = 0;  ///< steps times grains; 0: none that is long enough to tell
-  double seconds = 0;
+  double seconds = 0;      ///< without what other programs took
 };
 
 /// What can be asked of LIGGGHTS's box and of its grains as a whole, within a run or between two: of the

@@ -13,12 +13,12 @@ namespace suffuse::coupling {
 namespace {
 
 /// What packings showed: cells at a solid fraction of 0.55, root mean square, largest.
-constexpr MeasuredError kMeasured[] = {{2, 0.33, 0.56},    {2.5, 0.176, 0.3},  {3, 0.1, 0.16},
-                                       {3.5, 0.048, 0.08}, {4, 0.026, 0.05},   {5, 0.015, 0.047},
+constexpr MeasuredError kMeasured[] = {{2, 0.29, 0.5},     {2.5, 0.162, 0.28}, {3, 0.081, 0.15},
+                                       {3.5, 0.036, 0.08}, {4, 0.02, 0.05},    {5, 0.015, 0.047},
                                        {8, 0.009, 0.021}};
 
 double cells_of_usual_packing(double cells, double solid_fraction) {
-  constexpr double loosest = 0.4, densest = 0.65;
+  constexpr double loosest = 0.5, densest = 0.65;
   return cells * std::sqrt(kUsualSolidFraction / std::clamp(solid_fraction, loosest, densest));
 }
 

@@ -143,7 +143,7 @@ TEST_CASE("Where the averaged flow cannot be had, it says why") {
   AccuracyWish averaged_only{0.03};
   averaged_only.resolved = false;
   CHECK_THAT(message_of([&] { choose_for_accuracy(averaged_only, scene); }),
-             Catch::Contains("be above 15 % with `lbm method averaged`"));
+             Catch::Contains("be above 14 % with `lbm method averaged`"));
 }
 
 TEST_CASE("Forces on single grains take more cells than the permeability") {

@@ -112,7 +112,7 @@ std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const Ac
 std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scene);
 
 /// How far below the share asked for the expected error must lie.
-inline constexpr double kScatterOfPackings = 1.35;
+inline constexpr double kScatterOfPackings = 1.3;
 /// Solid fraction from which on grains are a bed, whose drag is Ergun's and which carries its water along.
 inline constexpr double kLeastBed = 0.3;
 
