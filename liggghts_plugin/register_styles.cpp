@@ -31,6 +31,7 @@
 #include "styles/scene_checks.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/near_word.h"
+#include "suffuse/common/processor_time.h"
 
 namespace {
 
@@ -209,7 +210,9 @@ void run_until_stopped(LAMMPS* lmp, int narg, char** arg) {
   tell_meshes_beyond_periodic_faces(lmp);
   tell_box_of_few_grains(lmp);
   const GrainCensus census(lmp);
+  const double start = MPI_Wtime(), busy = processor_seconds();
   Run(lmp).command(narg, arg);
+  LastRun::share = std::min(1., (processor_seconds() - busy) / std::max(1e-9, MPI_Wtime() - start));
   if (EarlyStop::requested) SignalHandler::request_quit = false;
   census.tell_lost();
 }

@@ -161,6 +161,24 @@ void ScriptVariables::require_choice(const std::string& name, const std::string&
                     "each is a file beside " + files::path(script_).filename().string()});
 }
 
+void ScriptVariables::require_no_two_for_one(const std::map<std::string, std::string>& given,
+                                             const std::string& who) const {
+  static const std::regex rule(R"(^#\s*-var (\w+) takes the place of (.*))"), word(R"(\w+)");
+  std::istringstream lines(text_);
+  std::smatch found;
+  for (std::string line; std::getline(lines, line);) {
+    if (!std::regex_search(line, found, rule)) continue;
+    const auto first = given.find(found[1]);
+    if (first == given.end() || first->second == "none") continue;
+    const std::string others = found[2];
+    for (std::sregex_iterator other(others.begin(), others.end(), word), end; other != end; ++other)
+      if (const auto second = given.find(other->str()); second != given.end())
+        throw_user_error({who, second->first, second->second,
+                          fmt::format("not be given beside -var {} {}", first->first, first->second),
+                          fmt::format("{} takes the place of {}; drop one of the two", first->first, others)});
+  }
+}
+
 void ScriptVariables::require(const std::string& name, const std::string& who) const {
   if (contains(settable_, name)) return;
   const std::string script = files::path(script_).filename().string();

@@ -159,6 +159,7 @@ void require_known_variables(int argc, char** argv) {
     variables.require_known(name, "suffuse -var");
     variables.require_choice(name, value, "suffuse -var");
   }
+  variables.require_no_two_for_one(given, "suffuse -var");
 }
 
 }  // namespace suffuse

@@ -4,125 +4,151 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
-#include "../liggghts/fine_diameter.h"
-#include "../liggghts/fluid_box.h"
-#include "suffuse/common/error.h"
-#include "suffuse/coupling/accuracy_choice.h"
-#include "suffuse/coupling/effects.h"
-#include "suffuse/micromechanics/seepage.h"
+#include "../liggghts/instance.h"
+#include "driven_scene.h"
+#include "run_price.h"
+#include "styles/style_support.h"
+#include "suffuse/common/collective_text.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::coupling {
 
 namespace {
 
-/// Water between grains at its fastest, over its mean there: in packings of spheres some two to three.
-constexpr double kFastestInPores = 2.5;
-/// Solid fraction from which on grains are a bed, whose drag is Ergun's and which carries its water along.
-constexpr double kBed = 0.3;
-/// And below which Ergun's law, made for beds, says nothing of the speed.
-constexpr double kSparse = 0.05;
-/// Of the critical gradient: what a bed whose drive is not known yet will be driven by.
-constexpr double kDriveOfBed = 1.5;
+/// The settings that a choice stands for, in the place of `lbm method` and `lbm lattice`.
+void take(const AccuracyChoice& choice, const AccuracyWish& wish, const AccuracyScene& scene,
+          LbmRequest& settings) {
+  lbm::UnitsRequest& units = settings.units;
+  units.spacing = choice.spacing;
+  units.mach.reset();
+  units.largest_velocity = scene.velocity;
+  units.only_cells_and_steps = choice.averaged;
+  units.relaxation_time.reset();
+  units.time_step.reset();
+  if (choice.averaged)
+    units.time_step = choice.time_step;
+  else
+    units.relaxation_time = choice.relaxation_time;
+  if (!settings.method_given) {
+    settings.averaged.reset();
+    if (choice.averaged) settings.averaged = AveragedSettings{wish.drag, true};
+  }
+  settings.precision = choice.precision;
+  settings.collision.collision_operator = choice.collision;
+  settings.lattice_given = true;
+}
 
-/// What the script says of flow and grains, SI.
-struct Drive {
-  double superficial = 0, pressure_range = 0, grain_speed = 0;
-  std::string from;  ///< in words
+/// Of one second of the flow, core seconds.
+struct PricedChoice {
+  AccuracyChoice choice;
+  double water = 0, grains = 0;
+
+  double all() const { return water + grains; }
 };
 
-/// Drops of pressure along each axis, Pa, from faces and gradient as they are now.
-Vec3 pressure_drops(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Vec3& size) {
-  Vec3 drops = settings.pressure_gradient.now(lmp).cwiseProduct(size).cwiseAbs();
-  for (std::size_t a = 0; a < 3; ++a) {
-    const ScriptFace &low = settings.faces[2 * a], &high = settings.faces[2 * a + 1];
-    if (low.kind == lbm::FaceKind::pressure && high.kind == lbm::FaceKind::pressure)
-      drops[static_cast<int>(a)] = std::abs(low.pressure.now(lmp) - high.pressure.now(lmp));
+/// What is chosen between the next cheaper and the next dearer, by rising price.
+std::vector<AccuracyChoice> choices_beside(const AccuracyChoice& chosen, const AccuracyWish& wish,
+                                           const AccuracyScene& scene) {
+  std::vector<AccuracyChoice> choices;
+  const auto add = [&](double cells) {
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) > 0)
+      choices.push_back(choice_with_cells(cells, wish, scene));
+  };
+  if (const auto averaged = averaged_choice(wish, scene)) choices.push_back(*averaged);
+  double cells = chosen.cells;
+  if (chosen.averaged) {
+    const auto resolved = resolved_choice(wish, scene);
+    if (!resolved) return choices;
+    cells = resolved->cells;
+  } else {
+    add(0.8 * cells);
   }
-  return drops;
+  add(cells);
+  add(1.25 * cells);
+  return choices;
 }
 
-double speed_of_faces(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings) {
-  double speed = 0;
-  for (const ScriptFace& face : settings.faces)
-    if (face.kind == lbm::FaceKind::velocity) speed = std::max(speed, face.velocity.now(lmp).norm());
-  return speed;
-}
-
-/// In a bed water flows as Ergun says, and grains that may move are lifted and go with it; grains apart from
-/// each other fall alone.
-Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const LiggghtsPort::Summary& grains,
-               bool grains_move, const Vec3& size) {
-  const lbm::UnitsRequest& units = settings.units;
-  const double gravity = settings.gravity.now(lmp).norm(), heavier = grains.largest_density / units.density;
-  const bool bed = grains.packing > kBed;
-  const double porosity = 1 - std::min(grains.packing, 0.7);
-  const micromechanics::SeepageFluid water{units.density, units.viscosity, 9.81};
-  const Vec3 drops = pressure_drops(lmp, settings, size);
-  Drive drive;
-  drive.superficial = speed_of_faces(lmp, settings);
-  drive.from = "the faces' velocity";
-  drive.pressure_range = drops.maxCoeff();
-  double gradient = drops.cwiseQuotient(size).maxCoeff() / (units.density * 9.81);
-  if (bed && grains_move && gravity > 0) {
-    const double lifting = kDriveOfBed * std::abs(heavier - 1) * grains.packing * gravity / 9.81;
-    gradient = std::max(gradient, lifting);
-    drive.pressure_range = std::max(drive.pressure_range, lifting * units.density * 9.81 * size.maxCoeff());
+/// By trials of the averaged flow and of the coarsest lattice; those of finer ones cost as many times as much
+/// as `lbm plan` says of other resolutions.
+std::vector<PricedChoice> priced(LAMMPS_NS::LAMMPS* lmp, const std::vector<AccuracyChoice>& choices,
+                                 const AccuracyWish& wish, const AccuracyScene& scene,
+                                 const LbmRequest& settings, LiggghtsPort& port) {
+  std::vector<PricedChoice> priced;
+  double water_at_cost = 0, grains = 0;
+  for (const AccuracyChoice& choice : choices) {
+    if (choice.averaged || water_at_cost == 0) {
+      LbmRequest trial = settings;
+      trial.method_given = false;
+      take(choice, wish, scene, trial);
+      const RunPrice price = price_of_run(lmp, trial, port);
+      priced.push_back({choice, price.water, price.grains});
+      if (!choice.averaged) water_at_cost = price.water / choice.cost, grains = price.grains;
+    } else {
+      priced.push_back({choice, water_at_cost * choice.cost, grains});
+    }
   }
-  if (grains.packing > kSparse && gradient > 0) {
-    const double by_ergun = micromechanics::velocity_ergun(gradient, grains.sauter_diameter, porosity, water);
-    if (by_ergun > drive.superficial)
-      drive.from = fmt::format("Ergun's at a gradient of {:.3g}", gradient), drive.superficial = by_ergun;
-  }
-  if (grains_move && bed) drive.grain_speed = drive.superficial / porosity;
-  if (grains_move && !bed) {
-    drive.grain_speed = std::max(
-        grains.speed, free_settling_velocity(2 * grains.largest_radius, heavier, gravity, units.viscosity));
-    if (drive.grain_speed > drive.superficial) drive.from = "the fall of the largest grain alone";
-  }
-  return drive;
-}
-
-/// In which a grain of this diameter follows the water around it, s: Stokes' law, in a bed with the drag of
-/// Ergun's viscous term on each grain, 150/18 of the solid fraction over the porosity squared (key:
-/// ergun1952).
-double response_time(double diameter, const LiggghtsPort::Summary& grains, const lbm::UnitsRequest& units) {
-  const double solids = std::min(grains.packing, 0.7), porosity = 1 - solids;
-  const double drag = std::max(1., 150. / 18 * solids / (porosity * porosity));
-  return grains.smallest_density / units.density * diameter * diameter / (18 * units.viscosity * drag);
+  return priced;
 }
 
 std::string percent(double share) {
   return fmt::format("{:.2g} %", 100 * share);
 }
 
-std::string lattice_line(const AccuracyChoice& choice, const AccuracyScene& scene,
-                         const std::string& region) {
+const char* name_of(AccuracyOf of) {
+  switch (of) {
+    case AccuracyOf::critical_gradient: return "critical gradient";
+    case AccuracyOf::forces: return "forces on single grains";
+    default: return "permeability";
+  }
+}
+
+/// Of an averaged flow.
+std::string sources_of(const AccuracyErrors& errors) {
+  std::string text = "its drag law " + percent(errors.closure);
+  if (errors.surface > 0) text += ", the bed's surface " + percent(errors.surface);
+  if (errors.forces > 0) text += ", single grains " + percent(errors.forces);
+  return text;
+}
+
+std::string method_line(const AccuracyChoice& choice, const AccuracyWish& wish, const AccuracyScene& scene) {
+  std::string text = fmt::format("lbm accuracy: method     {}: ", choice.averaged ? "averaged" : "resolved");
+  const auto averaged = averaged_choice(wish, scene);
+  if (choice.averaged) return text + sources_of(choice.errors) + "\n";
+  if (!averaged) return text + "not averaged, for " + why_not_averaged(wish, scene) + "\n";
+  return text + fmt::format("the averaged flow errs by about {}: {}\n", percent(averaged->errors.together()),
+                            sources_of(averaged->errors));
+}
+
+std::string lattice_lines(const AccuracyChoice& choice, const AccuracyScene& scene, const AccuracyWish& wish,
+                          const std::string& region) {
+  const std::string where = region.empty() ? "" : " region " + region;
+  if (choice.averaged)
+    return fmt::format("lbm method averaged drag {}`, `lbm lattice spacing {} timestep {} max_velocity {}{}",
+                       coupling::name_of(wish.drag), choice.spacing, choice.time_step, scene.velocity, where);
   return fmt::format("lbm lattice spacing {} relaxation_time {} max_velocity {} precision {}{}",
                      choice.spacing, choice.relaxation_time, scene.velocity,
-                     choice.precision == lbm::Precision::float_precision ? "float" : "double",
-                     region.empty() ? "" : " region " + region);
+                     choice.precision == lbm::Precision::float_precision ? "float" : "double", where);
 }
 
-std::string neighbour_line(const char* name, double cells, double accuracy, const AccuracyScene& scene,
-                           const AccuracyChoice& chosen) {
-  if (fitting_spacing(scene.size, scene.fine_diameter / cells) <= 0) return "";
-  const AccuracyChoice other = choice_with_cells(cells, accuracy, scene);
-  return fmt::format("lbm accuracy: {:<11}{:.2g} cells: about {}, {:.2g} times the time\n", name, other.cells,
-                     percent(other.errors.together()), other.cost / chosen.cost);
+std::string averaged_lines(const AccuracyChoice& choice, const AccuracyScene& scene) {
+  return fmt::format(
+      "lbm accuracy: cells      {:.4g} m, {:.2g} mean diameters\n"
+      "lbm accuracy: time step  {:.4g} s at {:.3g} m/s\n",
+      choice.spacing, choice.spacing / scene.sauter_diameter, choice.time_step, scene.velocity);
 }
 
-std::string text_of(const AccuracyChoice& choice, const AccuracyScene& scene, const AccuracyRequest& request,
-                    const std::string& velocity_from) {
+std::string resolved_lines(const AccuracyChoice& choice, const AccuracyScene& scene,
+                           const std::string& velocity_from) {
   const AccuracyErrors& errors = choice.errors;
-  std::string text = fmt::format("lbm accuracy: {} asked for, about {} to be expected\n",
-                                 percent(request.accuracy), percent(errors.together()));
-  text += fmt::format(
-      "lbm accuracy: cells      {:.3g} per diameter of the finest quarter of the grains' surface ({:.4g} m): "
-      "{}, "
-      "worst packing tried {}\n",
-      choice.cells, scene.fine_diameter, percent(errors.resolution),
-      percent(largest_permeability_error(choice.cells)));
+  std::string text = fmt::format(
+      "lbm accuracy: cells      {:.3g} a diameter ({:.4g} m): {}, worst packing tried {}\n",
+      choice.cells, scene.counted_diameter, percent(errors.resolution),
+      percent(largest_permeability_error(choice.cells, scene.solid_fraction)));
+  if (errors.forces > 0)
+    text += fmt::format("lbm accuracy: forces     {} on single grains besides\n", percent(errors.forces));
   text += fmt::format(
       "lbm accuracy: time step  {:.4g} s, bound by {}: Mach number {:.2g} ({}) at {:.3g} m/s, {}; density "
       "{}\n",
@@ -134,58 +160,87 @@ std::string text_of(const AccuracyChoice& choice, const AccuracyScene& scene, co
                           : "double: slow water, or fine accuracy, would lose digits");
   if (errors.motion > 0)
     text += fmt::format("lbm accuracy: collision  {}: grains at {:.2g} viscosities a cell ({})\n",
-                        name_of(choice.collision), scene.grain_speed * choice.spacing / scene.viscosity,
+                        lbm::name_of(choice.collision), scene.grain_speed * choice.spacing / scene.viscosity,
                         percent(errors.motion));
-  text += neighbour_line("cheaper", 0.8 * choice.cells, request.accuracy, scene, choice);
-  text += neighbour_line("dearer", 1.25 * choice.cells, request.accuracy, scene, choice);
-  return text + "lbm accuracy: the same is `" + lattice_line(choice, scene, request.region) + "`\n";
+  return text;
+}
+
+/// The cheapest that keeps to what was asked for; `chosen` where none of them is known to.
+AccuracyChoice cheapest(const std::vector<PricedChoice>& choices, const AccuracyWish& wish,
+                        const AccuracyChoice& chosen) {
+  const PricedChoice* best = nullptr;
+  for (const PricedChoice& priced : choices)
+    if (keeps_to(wish, priced.choice) && (wish.resolved || priced.choice.averaged) &&
+        (best == nullptr || priced.all() < best->all()))
+      best = &priced;
+  return best == nullptr ? chosen : best->choice;
+}
+
+/// By rising price: error, core seconds a second of the flow, times the chosen one's.
+std::string prices_text(std::vector<PricedChoice> choices, const AccuracyChoice& chosen) {
+  const auto by_price = [](const PricedChoice& a, const PricedChoice& b) { return a.all() < b.all(); };
+  std::sort(choices.begin(), choices.end(), by_price);
+  const auto is_chosen = [&](const PricedChoice& priced) {
+    return priced.choice.averaged == chosen.averaged && priced.choice.spacing == chosen.spacing;
+  };
+  const auto place = std::find_if(choices.begin(), choices.end(), is_chosen);
+  std::string text = fmt::format("lbm accuracy: {:<11}{:<26}{:>7}{:>12}{:>12}{:>8}\n", "choice", "", "error",
+                                 "water", "grains", "price");
+  for (auto priced = choices.begin(); priced != choices.end(); ++priced) {
+    const AccuracyChoice& choice = priced->choice;
+    const std::string what = choice.averaged ? fmt::format("averaged, {:.3g} m a cell", choice.spacing)
+                                             : fmt::format("{:.3g} cells a diameter", choice.cells);
+    text += fmt::format("lbm accuracy: {:<11}{:<26}{:>7}{:>12.3g}{:>12.3g}{:>8.2g}\n",
+                        priced == place ? "this"
+                        : priced < place ? "cheaper"
+                                         : "dearer",
+                        what, percent(choice.errors.together()), priced->water, priced->grains,
+                        priced->all() / place->all());
+  }
+  return text + "lbm accuracy: water and grains in core seconds for a second of the flow\n";
 }
 
 }  // namespace
 
-DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const LbmRequest& settings,
-                         std::optional<double> largest_velocity, const std::string& region) {
-  const LiggghtsPort::Summary grains = port.summary();
-  DrivenScene driven;
-  AccuracyScene& scene = driven.scene;
-  scene.size = fluid_box(lmp, port, region).size;
-  scene.density = settings.units.density;
-  scene.viscosity = settings.units.viscosity;
-  if (grains.grains == 0) {
-    scene.velocity = largest_velocity.value_or(0);
-    return driven;
-  }
-  const bool grains_move = port.anything_moves();
-  scene.fine_diameter = fine_diameter(port, grains);
-  const Drive drive = drive_of(lmp, settings, grains, grains_move, scene.size);
-  const double porosity = 1 - std::min(grains.packing, 0.7);
-  const double fastest = grains.packing > kBed ? kFastestInPores * drive.superficial / porosity
-                                               : std::max(1.5 * drive.superficial, drive.grain_speed);
-  driven.velocity_from = largest_velocity ? "as given" : "from " + drive.from;
-  scene.velocity = largest_velocity.value_or(fastest);
-  scene.pressure_range = drive.pressure_range;
-  // A bed's grains carry their water along; a grain alone does not.
-  if (grains.packing > kBed && grains_move) scene.grain_speed = std::min(drive.grain_speed, scene.velocity);
-  if (grains_move) scene.response_time = response_time(2 * grains.smallest_radius, grains, settings.units);
-  return driven;
-}
-
-void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
+void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, LiggghtsPort& port,
                   LbmRequest& settings) {
   const auto [scene, velocity_from] =
       driven_scene(lmp, port, settings, request.largest_velocity, request.region);
-  const AccuracyChoice choice = choose_for_accuracy(request.accuracy, scene);
-  lbm::UnitsRequest& units = settings.units;
-  units.spacing = choice.spacing;
-  units.relaxation_time = choice.relaxation_time;
-  units.time_step.reset();
-  units.mach.reset();
-  units.largest_velocity = scene.velocity;
-  settings.precision = choice.precision;
-  settings.collision.collision_operator = choice.collision;
+  AccuracyWish wish{request.accuracy.value(), request.of};
+  if (settings.method_given) {
+    wish.averaged = settings.averaged.has_value();
+    wish.resolved = !wish.averaged;
+    if (wish.averaged) wish.drag = settings.averaged->drag;
+  }
+  const AccuracyChoice first = choose_for_accuracy(wish, scene);
   settings.region = request.region;
-  settings.lattice_given = true;
-  tell(lmp, text_of(choice, scene, request, velocity_from));
+  const std::vector<PricedChoice> choices =
+      priced(lmp, choices_beside(first, wish, scene), wish, scene, settings, port);
+  const AccuracyChoice choice = cheapest(choices, wish, first);
+  take(choice, wish, scene, settings);
+  std::string text = fmt::format("lbm accuracy: {} of the {} asked for, about {} to be expected\n",
+                                 percent(wish.share), name_of(wish.of), percent(choice.errors.together()));
+  text += method_line(choice, wish, scene);
+  text += choice.averaged ? averaged_lines(choice, scene) : resolved_lines(choice, scene, velocity_from);
+  text += prices_text(choices, choice);
+  tell(lmp, text + "lbm accuracy: the same is `" +
+                lattice_lines(choice, scene, wish, request.region) + "`\n");
+}
+
+void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std::string& file) {
+  const lbm::Units units(settings.units);
+  const double spacing = units.spacing(), step = units.time_step();
+  constexpr double incompressible = 1e9;
+  const double sound = settings.averaged ? incompressible : spacing / step / std::sqrt(3.);
+  const std::string who = "lbm accuracy";
+  on_first_rank(who, communicator_of(lmp), [&] {
+    SafeFile out(file, who);
+    out.write(fmt::format(
+        "variable lattice_spacing equal {}\nvariable lattice_timestep equal {}\n"
+        "variable lattice_sound equal {}\n",
+        spacing, step, sound));
+    out.commit();
+  });
 }
 
 }  // namespace suffuse::coupling

@@ -1,30 +1,22 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "../liggghts/liggghts_port.h"
 #include "lbm_words.h"
-#include "suffuse/coupling/accuracy_choice.h"
 
 namespace suffuse::coupling {
 
-/// What drives the water and the grains, by the script so far, for the errors of accuracy_choice.h.
-struct DrivenScene {
-  AccuracyScene scene;
-  std::string velocity_from;  ///< in words
-};
-
-/// `largest_velocity` (m/s) where the script has given one; `region`: the block that the water fills, or
-/// empty. Collective.
-DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const LbmRequest& settings,
-                         std::optional<double> largest_velocity, const std::string& region);
-
-/// Takes the place of `lbm lattice`: chooses spacing, time step, precision and collision operator
-/// (accuracy_choice.h) for the grains as they are and what drives the water so far, sets them, and prints
-/// what was chosen, why, what is cheaper and dearer, and the `lbm lattice` line that says the same.
-/// Collective.
-void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, const LiggghtsPort& port,
+/// Takes the place of `lbm method` and `lbm lattice`, for a request that has an accuracy: chooses the flow, resolved or averaged, spacing, time
+/// step, precision and collision operator (accuracy_choice.h) for the grains as they are and what drives the
+/// water so far, sets them, and prints what was chosen, why, what is cheaper and dearer with errors and
+/// prices (trial_costs.h), and the lines that say the same. Collective.
+void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, LiggghtsPort& port,
                   LbmRequest& settings);
+
+/// Cells and steps as variables of the script, in a file to be included: lattice_spacing (m),
+/// lattice_timestep (s), lattice_sound (m/s), the speed of pressure in the water; the averaged flow, whose
+/// density is constant, counts as 1e9 m/s. Collective.
+void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std::string& file);
 
 }  // namespace suffuse::coupling

@@ -4,24 +4,23 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "../liggghts/fluid_box.h"
 #include "../liggghts/instance.h"
 #include "../liggghts/restart_commands.h"
 #include "../liggghts/restart_instant.h"
+#include "driven_scene.h"
 #include "lbm_accuracy.h"
 #include "lbm_plan.h"
 #include "lbm_run.h"
 #include "lbm_words.h"
 #include "register_styles.h"
+#include "run_price.h"
 #include "saved_set.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/lbm/checkpoint.h"
-#include "suffuse/lbm/whole_cells.h"
 
 namespace suffuse::coupling {
 
@@ -37,16 +36,6 @@ void run_line(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   auto& instance = instances()[lmp];
   if (instance == nullptr) instance = std::make_unique<LbmCommand>(lmp);
   instance->line(narg, arg);
-}
-
-/// Closures are means over several grains.
-void require_cells_of_grains(double spacing, const LiggghtsPort::Summary& grains) {
-  constexpr double least = 1.5, rounding = 1e-9;
-  if (grains.grains > 0 && spacing < least * grains.sauter_diameter * (1 - rounding))
-    throw_user_error({"lbm lattice", "spacing", fmt::format("{:g} m", spacing),
-                      fmt::format("be at least {:g} mean diameters, {:.3g} m, with `lbm method averaged`",
-                                  least, least * grains.sauter_diameter),
-                      fmt::format("about three, {:.2g} m, is usual", 3 * grains.sauter_diameter)});
 }
 
 /// Words of the script that the averaged flow does not use; empty if there are none.
@@ -142,27 +131,13 @@ void LbmCommand::restart(ArgumentReader& reader) {
   }
 }
 
-CoupledSettings LbmCommand::settings_for_grains() const {
-  CoupledSettings coupled = settings_now(request_, lmp_);
-  if (coupled.averaged) require_cells_of_grains(lbm::Units(coupled.units).spacing(), port_->summary());
-  return coupled;
-}
-
-/// LIGGGHTS's sub-boxes over the cells of the fluid's box; `low` is set to its low corner.
-lbm::Decomposition LbmCommand::decomposition(Vec3& low) {
-  const double spacing = lbm::Units(request_.units).spacing();
-  const FluidBox box = fluid_box(lmp_, *port_, request_.region);
-  low = box.low;
-  return port_->decomposition(box.low, spacing, lbm::whole_cells(box.size, spacing, "lbm lattice"));
-}
-
 void LbmCommand::build() {
-  CoupledSettings coupled = settings_for_grains();
+  CoupledSettings coupled = settings_for_grains(lmp_, request_, *port_);
   coupled.skip_rest = true;
   const EffectSettings effects = effects_.start(coupled, *port_, communicator_of(lmp_), state_to_read_);
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
-  const lbm::Decomposition parts = decomposition(low);
+  const lbm::Decomposition parts = decomposition_of(lmp_, request_, *port_, low);
   coupled.substeps = choose_substeps();
   if (const std::string note = unused_words_note(request_); !note.empty()) tell(lmp_, note);
   simulation_ = std::make_unique<CoupledSimulation>(coupled, parts, low, *port_);
@@ -209,62 +184,38 @@ void LbmCommand::warn_about_held_grains() {
            count_text(held.grains, "grain"), held.grains == 1 ? "has" : "have", held.speed));
 }
 
-/// The script's time step is the largest that the contacts allow; the fluid's step is divided into as many
-/// equal ones as it needs, or as `substeps` says.
 int LbmCommand::choose_substeps() {
-  const double fluid_step = lbm::Units(request_.units).time_step(), largest = port_->time_step();
-  constexpr double most = 1e6;
-  if (!(largest > 0) || fluid_step / largest > most)
-    throw_user_error(
-        {"lbm run", "timestep", fmt::format("{:g} s", largest),
-         fmt::format("be > 0 and at least a millionth of the fluid's step, {:.6g} s", fluid_step),
-         "`dem_timestep rayleigh 0.15` sets what the contacts allow"});
-  const int needed = std::max(1, static_cast<int>(std::ceil(fluid_step / largest * (1 - 1e-9))));
-  const int asked = request_.substeps;
-  if (asked > 0 && asked < needed)
-    throw_user_error({"lbm couple", "substeps", fmt::format("{}", asked),
-                      fmt::format("be at least {}: a fluid step is {:.6g} s, the DEM's `timestep` {:.6g} s",
-                                  needed, fluid_step, largest),
-                      "use `substeps auto`"});
-  const int substeps = asked > 0 ? asked : needed;
-  port_->set_time_step(fluid_step / substeps);
+  const int substeps = substeps_for(request_, *port_);
+  port_->set_time_step(lbm::Units(request_.units).time_step() / substeps);
   return substeps;
 }
 
 void LbmCommand::accuracy(ArgumentReader& reader) {
   const AccuracyRequest request = read_accuracy(reader);
-  require_box(lmp_, reader.who());
-  if (request_.averaged)
-    throw_user_error({reader.who(), "method", "averaged", "be resolved: its errors are those of a drag law",
-                      "write `lbm lattice` with a spacing of about three mean diameters"});
+  if (request.accuracy) choose_lattice(request);
+  require_lattice(reader.who());
+  if (!request.file.empty()) write_lattice(lmp_, request_, request.file);
+}
+
+void LbmCommand::choose_lattice(const AccuracyRequest& request) {
+  require_box(lmp_, "lbm accuracy");
   const bool made_port = port_ == nullptr;
   if (made_port) port_ = std::make_unique<LiggghtsPort>(lmp_);
   set_accuracy(lmp_, request, *port_, request_);
-  if (!made_port) return;
-  port_->withdraw();
-  port_.reset();
+  if (made_port) forget_the_port();
 }
 
 void LbmCommand::plan(ArgumentReader& reader) {
   require_lattice(reader.who());
   const double time = read_plan(reader);
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
-  CoupledSettings coupled = settings_for_grains();
-  coupled.effects = RunEffects().start(coupled, *port_, communicator_of(lmp_), "");
-  port_->check_box(coupled.fluid.faces);
-  Vec3 low;
-  const lbm::Decomposition parts = decomposition(low);
-  const double time_step = port_->time_step();
-  coupled.substeps = choose_substeps();
-  double looks = 1. / LbmRun::kCheckEvery;
-  for (const MonitorRequest& monitor : request_.monitors)
-    looks = std::max(looks, std::min(1., lbm::Units(coupled.units).time_step() / monitor.every));
-  plan_run(lmp_, coupled, parts, low, *port_,
-           driven_scene(lmp_, *port_, request_, request_.units.largest_velocity, request_.region), time,
-           looks);
-  // As if there had been no plan.
-  port_->set_time_step(time_step);
-  if (simulation_ != nullptr) return;
+  print_plan(lmp_, price_of_run(lmp_, request_, *port_), *port_,
+             driven_scene(lmp_, *port_, request_, request_.units.largest_velocity, request_.region), time);
+  if (simulation_ == nullptr) forget_the_port();
+}
+
+/// As if there had been none.
+void LbmCommand::forget_the_port() {
   port_->withdraw();
   port_.reset();
 }
@@ -286,7 +237,7 @@ void LbmCommand::run(ArgumentReader& reader) {
     build();
   } else {
     port_->check_unchanged();
-    const CoupledSettings now = settings_for_grains();
+    const CoupledSettings now = settings_for_grains(lmp_, request_, *port_);
     port_->check_box(now.fluid.faces);
     simulation_->set_substeps(choose_substeps());
     simulation_->set_faces(now.fluid.faces);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "../liggghts/scene.h"
-#include "lbm_request.h"
+#include "lbm_words.h"
 #include "run_effects.h"
 #include "run_output.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -32,13 +32,12 @@ class LbmCommand {
   void clear();
   void restart(ArgumentReader& reader);
   void accuracy(ArgumentReader& reader);
+  void choose_lattice(const AccuracyRequest& request);
   void plan(ArgumentReader& reader);
   void run(ArgumentReader& reader);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
-  /// settings_now; a UserError where its cells are too small for the grains.
-  CoupledSettings settings_for_grains() const;
-  lbm::Decomposition decomposition(Vec3& low);
+  void forget_the_port();
   void build();
   void read_state();
   void warn_about_held_grains();

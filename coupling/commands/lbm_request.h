@@ -54,6 +54,7 @@ struct CheckpointRequest {
 struct LbmRequest {
   lbm::UnitsRequest units;
   std::optional<AveragedSettings> averaged;
+  bool method_given = false;  ///< `lbm method`: `lbm accuracy` may choose otherwise
   lbm::CollisionSettings collision;
   lbm::Precision precision = lbm::Precision::double_precision;
   SolidSettings solids;

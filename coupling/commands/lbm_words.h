@@ -5,6 +5,7 @@
 
 #include "declared_words.h"
 #include "lbm_request.h"
+#include "suffuse/coupling/method_errors.h"
 
 namespace suffuse::coupling {
 
@@ -33,11 +34,13 @@ RunLine read_run(ArgumentReader& reader);
 /// `lbm plan TIME`
 double read_plan(ArgumentReader& reader);
 
-/// `lbm accuracy 3% [max_velocity U] [region ID]`
+/// `lbm accuracy 3%|none [of QUANTITY] [max_velocity U] [region ID] [write FILE]`
 struct AccuracyRequest {
-  double accuracy = 0.03;                  ///< a share
+  std::optional<double> accuracy;  ///< a share; none: `lbm lattice` stands as it was written
+  AccuracyOf of = AccuracyOf::permeability;
   std::optional<double> largest_velocity;  ///< m/s; else from what drives water and grains
   std::string region;
+  std::string file;  ///< for the script's variables; empty: none
 };
 AccuracyRequest read_accuracy(ArgumentReader& reader);
 

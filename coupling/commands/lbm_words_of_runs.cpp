@@ -139,8 +139,9 @@ Command<OutputRequest> make_output_command() {
   return line;
 }
 
-double read_share(ArgumentReader& reader) {
+std::optional<double> read_share(ArgumentReader& reader) {
   const std::string given = reader.word("accuracy, such as 3%");
+  if (given == "none") return std::nullopt;
   try {
     std::size_t used = 0;
     const double value = std::stod(given, &used);
@@ -148,7 +149,7 @@ double read_share(ArgumentReader& reader) {
     if ((!unit.empty() && unit != "%") || !(value > 0)) throw std::invalid_argument(given);
     return unit.empty() ? value : value / 100;
   } catch (const std::logic_error&) {
-    throw_user_error({reader.who(), "accuracy", given, "be a share such as 3% or 0.03", ""});
+    throw_user_error({reader.who(), "accuracy", given, "be a share such as 3% or 0.03, or none", ""});
   }
 }
 
@@ -158,16 +159,29 @@ const Command<AccuracyRequest>& accuracy_command() {
     Command<AccuracyRequest> accuracy{.name = "accuracy", .meaning = "chooses the lattice, in its place"};
     accuracy.only_before_run = true;
     accuracy.first = {
-        {{"accuracy", "SHARE", "", "1.4% to 20%", "", "error of the permeability to be expected"},
+        {{"accuracy", "SHARE|none", "", "1.4% to 30%", "",
+          "error to be expected; `none`: `lbm lattice` stands as it was written"},
          [](ArgumentReader& reader, LAMMPS_NS::LAMMPS*, AccuracyRequest& a) {
            a.accuracy = read_share(reader);
          }}};
     accuracy.words = {
+        D::choice<AccuracyOf>(
+            "of",
+            {{"permeability", AccuracyOf::permeability},
+             {"critical_gradient", AccuracyOf::critical_gradient},
+             {"forces", AccuracyOf::forces}},
+            [](AccuracyRequest& a) -> AccuracyOf& { return a.of; },
+            "what is to be that accurate: permeability and speeds, the gradient that lifts a bed, or the "
+            "forces on single grains"),
         D::number(lbm::kMaxVelocityWord,
                   [](AccuracyRequest& a) -> std::optional<double>& { return a.largest_velocity; }),
         D::text(
             "region", "ID", [](AccuracyRequest& a) -> std::string& { return a.region; },
-            "a block that the water fills instead of the whole box")};
+            "a block that the water fills instead of the whole box"),
+        D::text(
+            "write", "FILE", [](AccuracyRequest& a) -> std::string& { return a.file; },
+            "script variables of cells and steps, to be included: lattice_spacing (m), lattice_timestep "
+            "(s), lattice_sound (m/s)")};
     return accuracy;
   }();
   return line;

@@ -64,6 +64,7 @@ Line method_line() {
   };
   line.finish = [](ArgumentReader&, const LbmRequest&, LbmRequest& r, const Given&) {
     r.units.only_cells_and_steps = r.averaged.has_value();
+    r.method_given = true;
   };
   return line;
 }

@@ -16,6 +16,7 @@
 #include "force_fix.h"
 #include "lammps.h"
 #include "modify.h"
+#include "styles/early_stop.h"
 #include "styles/fix_contact_sampler.h"
 #include "styles/fix_hydrodynamic_force.h"
 #include "suffuse/common/error.h"
@@ -179,8 +180,10 @@ GrainQuestions::Summary GrainQuestions::summary() const {
   summary.kinetic_energy = sums.energy;
   summary.speed = std::sqrt(extremes.speed_squared);
   summary.load = Vec3(sums.load[0], sums.load[1], sums.load[2]);
-  for (int a = 0; a < 3; ++a)
+  for (int a = 0; a < 3; ++a) {
+    summary.low[a] = -extremes.minus_low[a];
     summary.extent[a] = std::min(extremes.high[a] + extremes.minus_low[a], lmp_->domain->prd[a]);
+  }
   summary.packing = sums.volume / summary.extent.prod();
   if (summary.grains == 1)  // fills the box around it, whatever it does
     summary.packing = sums.volume / (lmp_->domain->prd[0] * lmp_->domain->prd[1] * lmp_->domain->prd[2]);
@@ -252,10 +255,12 @@ PastRun GrainQuestions::past_run() const {
   const double steps = lmp_->update->nsteps;
   double seconds = lmp_->timer->array[TIME_LOOP];
   MPI_Bcast(&seconds, 1, MPI_DOUBLE, 0, lmp_->world);
+  double share = LastRun::share;
+  MPI_Allreduce(MPI_IN_PLACE, &share, 1, MPI_DOUBLE, MPI_MIN, lmp_->world);
   const double grains = static_cast<double>(lmp_->atom->natoms);
   constexpr double least_seconds = 0.02;  // well above what starting a run takes
   if (!(seconds > least_seconds) || steps * grains <= 0) return {};
-  return {steps * grains, seconds};
+  return {steps * grains, share * seconds};
 }
 
 }  // namespace suffuse::coupling

@@ -19,7 +19,7 @@ namespace suffuse::coupling {
 /// LIGGGHTS's last run in this process.
 struct PastRun {
   double grain_steps = 0;  ///< steps times grains; 0: none that is long enough to tell
-  double seconds = 0;
+  double seconds = 0;      ///< without what other programs took
 };
 
 /// What can be asked of LIGGGHTS's box and of its grains as a whole, within a run or between two: of the
@@ -72,7 +72,7 @@ class GrainQuestions {
     double sauter_diameter = 0;                        ///< sum d^3/sum d^2, m
     double smallest_density = 0, largest_density = 0;  ///< kg/m^3
     double solid_volume = 0;                           ///< m^3
-    Vec3 extent = Vec3::Zero();                        ///< of the box around all grains, m
+    Vec3 low = Vec3::Zero(), extent = Vec3::Zero();    ///< of the box around all grains, m
     double packing = 0;                                ///< solid volume over that of this box
     double kinetic_energy = 0;                         ///< J
     double speed = 0;                                  ///< of the fastest centre, m/s

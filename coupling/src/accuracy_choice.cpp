@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <iterator>
 #include <vector>
 
 #include "suffuse/common/error.h"
@@ -16,10 +16,8 @@ namespace suffuse::coupling {
 namespace {
 
 constexpr const char* kWho = "lbm accuracy";
-constexpr double kLeastCells = 2.5, kMostCells = 8, kStepOfCells = 0.05;
-constexpr double kFinest = 0.014, kCoarsest = 0.2;
-/// Errors of single packings scatter about the root mean square: nine of ten stay below so many of it.
-constexpr double kScatter = 1.5;
+constexpr double kLeastCells = 2, kMostCells = 8, kStepOfCells = 0.05;
+constexpr double kFinest = 0.014, kCoarsest = 0.3;
 /// Share of the accuracy that the time step's errors may take.
 constexpr double kShareOfTimeStep = 1. / 3;
 constexpr double kLargestMach = 0.2, kLargestRelaxationTime = 1;
@@ -35,6 +33,12 @@ double squared(double value) {
 double distance_from_whole(double value) {
   return std::abs(value - std::max(1., std::round(value)));
 }
+
+/// Diameters a cell of the averaged flow: what is tried in this order, and its limits.
+constexpr double kDiameters[] = {3, 2.25, 4, 5.3, 6}, kLeastDiameters = 1.5;
+/// Its steps: shares of a grain's fall by its diameter, of a cell that the fastest water passes, and of the
+/// time in which a flow past a grain starts, d^2/nu.
+constexpr double kShareOfFall = 1. / 30, kCellsAStep = 0.1, kShareOfStart = 0.1;
 
 /// Largest time step, and what bounds it.
 void set_time_step(AccuracyChoice& choice, double accuracy, const AccuracyScene& scene) {
@@ -71,7 +75,8 @@ void set_operators(AccuracyChoice& choice, double accuracy, const AccuracyScene&
 }  // namespace
 
 double AccuracyErrors::together() const {
-  return std::sqrt(squared(resolution) + squared(compressibility) + squared(density) + squared(motion));
+  return std::sqrt(squared(resolution) + squared(compressibility) + squared(density) + squared(motion) +
+                   squared(forces) + squared(closure) + squared(surface));
 }
 
 double expected_mach(const AccuracyScene& scene, double spacing, double time_step) {
@@ -81,7 +86,9 @@ double expected_mach(const AccuracyScene& scene, double spacing, double time_ste
 AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, double time_step,
                                lbm::CollisionOperator collision) {
   AccuracyErrors errors;
-  if (scene.fine_diameter > 0) errors.resolution = expected_permeability_error(scene.fine_diameter / spacing);
+  if (scene.counted_diameter > 0) 
+    errors.resolution = expected_permeability_error(
+        scene.counted_diameter / spacing, scene.solid_fraction > 0 ? scene.solid_fraction : kUsualSolidFraction);
   errors.compressibility = squared(expected_mach(scene, spacing, time_step));
   errors.density = 1.5 * scene.pressure_range / scene.density * squared(time_step / spacing);
   const bool comoving = collision == lbm::CollisionOperator::trt_comoving;
@@ -89,6 +96,12 @@ AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, doubl
   errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
   if (scene.response_time > 0) errors.coupling = 0.5 * time_step / scene.response_time;
   return errors;
+}
+
+double counted_diameter(double fine, double sauter) {
+  constexpr double of_fines = 0.5, of_mean = 0.75;
+  const double mean_counts = std::clamp((fine / sauter - of_fines) / (of_mean - of_fines), 0., 1.);
+  return fine + mean_counts * std::max(0., sauter - fine);
 }
 
 double fitting_spacing(const Vec3& size, double most) {
@@ -104,19 +117,20 @@ double fitting_spacing(const Vec3& size, double most) {
   return 0;
 }
 
-AccuracyChoice choice_with_cells(double cells, double accuracy, const AccuracyScene& scene) {
+AccuracyChoice choice_with_cells(double cells, const AccuracyWish& wish, const AccuracyScene& scene) {
   AccuracyChoice choice;
-  choice.spacing = fitting_spacing(scene.size, scene.fine_diameter / cells);
+  choice.spacing = fitting_spacing(scene.size, scene.counted_diameter / cells);
   if (choice.spacing <= 0)
     throw_user_error({kWho, "box",
                       fmt::format("{:g} x {:g} x {:g} m", scene.size[0], scene.size[1], scene.size[2]),
                       fmt::format("be whole numbers of one cell of {:.3g} m or three quarters of it",
-                                  scene.fine_diameter / cells),
+                                  scene.counted_diameter / cells),
                       "round its sides to a common length"});
-  choice.cells = scene.fine_diameter / choice.spacing;
-  set_time_step(choice, accuracy, scene);
-  set_operators(choice, accuracy, scene);
+  choice.cells = scene.counted_diameter / choice.spacing;
+  set_time_step(choice, wish.share, scene);
+  set_operators(choice, wish.share, scene);
   choice.errors = expected_errors(scene, choice.spacing, choice.time_step, choice.collision);
+  if (wish.of == AccuracyOf::forces) choice.errors.forces = expected_force_error(choice.cells);
   constexpr double kFloatCost = 0.6, kComovingCost = 1.18;
   choice.cost = 1 / (choice.spacing * choice.spacing * choice.spacing * choice.time_step);
   if (choice.precision == lbm::Precision::float_precision) choice.cost *= kFloatCost;
@@ -124,32 +138,116 @@ AccuracyChoice choice_with_cells(double cells, double accuracy, const AccuracySc
   return choice;
 }
 
-AccuracyChoice choose_for_accuracy(double accuracy, const AccuracyScene& scene) {
-  if (!(accuracy >= kFinest && accuracy <= kCoarsest))
-    throw_user_error(
-        {kWho, "accuracy", fmt::format("{:g} %", 100 * accuracy),
-         fmt::format("be {:g} to {:g} %", 100 * kFinest, 100 * kCoarsest),
-         "finer, no packing is known well enough to tell; coarser, take `lbm method averaged`, which errs by "
-         "a third or less for a bed as a whole (docs/results/price_of_methods.md)"});
-  if (!(scene.fine_diameter > 0))
+namespace {
+
+double averaged_spacing(const AccuracyScene& scene) {
+  for (const double diameters : kDiameters) {
+    const double spacing = fitting_spacing(scene.size, diameters * scene.sauter_diameter);
+    if (spacing >= kLeastDiameters * scene.sauter_diameter) return spacing;
+  }
+  return 0;
+}
+
+double averaged_step(double spacing, const AccuracyScene& scene) {
+  double step = std::min(kCellsAStep * spacing / std::max(scene.velocity, scene.grain_speed),
+                         kShareOfStart * squared(scene.sauter_diameter) / scene.viscosity);
+  if (scene.falling > 0)
+    step = std::min(step, kShareOfFall * std::sqrt(2 * scene.smallest_diameter / scene.falling));
+  return step;
+}
+
+double of_quantity(const AveragedErrors& errors, AccuracyOf of) {
+  if (of == AccuracyOf::critical_gradient) return errors.critical_gradient;
+  return errors.permeability;
+}
+
+void require_what_can_be_chosen(const AccuracyWish& wish, const AccuracyScene& scene) {
+  if (!(wish.share >= kFinest && wish.share <= kCoarsest))
+    throw_user_error({kWho, "accuracy", fmt::format("{:g} %", 100 * wish.share),
+                      fmt::format("be {:g} to {:g} %", 100 * kFinest, 100 * kCoarsest),
+                      "finer, no packing is known well enough to tell; coarser, the formulas of "
+                      "docs/results/price_of_methods.md need no run"});
+  if (!(scene.counted_diameter > 0))
     throw_user_error({kWho, "grains", "none", "be there before: cells are counted a grain",
                       "without grains write `lbm lattice` yourself"});
   if (!(scene.velocity > 0 || scene.grain_speed > 0))
     throw_user_error(
         {kWho, "velocity", "none", "be known",
          "write `max_velocity U`, or the `lbm boundary` and `lbm force` that drive the water before"});
-  std::optional<AccuracyChoice> finest;
+}
+
+/// Cells a diameter; the most that may be chosen where none fit, to be told what is amiss with the box.
+double finest_that_fits(const AccuracyScene& scene) {
+  for (double cells = kMostCells; cells > kLeastCells; cells -= kStepOfCells)
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) > 0) return cells;
+  return kMostCells;
+}
+
+[[noreturn]] void refuse_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
+  const std::string why = why_not_averaged(wish, scene);
+  const auto choice = averaged_choice(wish, scene);
+  throw_user_error({kWho, "accuracy", fmt::format("{:g} %", 100 * wish.share),
+                    choice ? fmt::format("be above {:.2g} % with `lbm method averaged`",
+                                         100 * kScatterOfPackings * choice->errors.together())
+                           : "be one that the averaged flow can have: " + why,
+                    "drop `lbm method averaged`, or its drag law: the resolved flow is finer"});
+}
+
+}  // namespace
+
+bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice) {
+  return kScatterOfPackings * choice.errors.together() <= wish.share;
+}
+
+std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
+  if (!wish.averaged) return "the script asks for the resolved flow";
+  if (!scene.not_averaged.empty()) return scene.not_averaged;
+  if (!(scene.solid_fraction > kLeastBed)) return "the grains are no bed, and its errors are those of beds";
+  if (averaged_spacing(scene) <= 0)
+    return fmt::format("no cells of {:g} to {:g} mean diameters divide the box", kLeastDiameters,
+                       *std::max_element(std::begin(kDiameters), std::end(kDiameters)));
+  return "";
+}
+
+std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const AccuracyScene& scene) {
+  if (!why_not_averaged(wish, scene).empty()) return std::nullopt;
+  AccuracyChoice choice;
+  choice.averaged = true;
+  choice.precision = lbm::Precision::double_precision;
+  choice.spacing = averaged_spacing(scene);
+  choice.cells = scene.counted_diameter / choice.spacing;
+  choice.time_step = averaged_step(choice.spacing, scene);
+  const AveragedErrors errors = averaged_errors(wish.drag);
+  choice.errors.closure = of_quantity(errors, wish.of);
+  if (wish.of == AccuracyOf::forces) choice.errors.forces = errors.forces;
+  if (wish.of != AccuracyOf::critical_gradient && scene.bed_length > 0)
+    choice.errors.surface =
+        scene.free_surfaces * surface_loss(scene.solid_fraction) * choice.spacing / scene.bed_length;
+  return choice;
+}
+
+std::optional<AccuracyChoice> resolved_choice(const AccuracyWish& wish, const AccuracyScene& scene) {
   for (double cells = kLeastCells; cells <= kMostCells + 1e-9; cells += kStepOfCells) {
-    if (fitting_spacing(scene.size, scene.fine_diameter / cells) <= 0) continue;
-    finest = choice_with_cells(cells, accuracy, scene);
-    if (kScatter * finest->errors.together() <= accuracy) return *finest;
+    if (fitting_spacing(scene.size, scene.counted_diameter / cells) <= 0) continue;
+    const AccuracyChoice choice = choice_with_cells(cells, wish, scene);
+    if (keeps_to(wish, choice)) return choice;
   }
-  if (!finest) finest = choice_with_cells(kMostCells, accuracy, scene);  // tells what is amiss with the box
-  const AccuracyErrors& errors = finest->errors;
+  return std::nullopt;
+}
+
+AccuracyChoice choose_for_accuracy(const AccuracyWish& wish, const AccuracyScene& scene) {
+  require_what_can_be_chosen(wish, scene);
+  const std::optional<AccuracyChoice> averaged = averaged_choice(wish, scene);
+  if (averaged && keeps_to(wish, *averaged)) return *averaged;
+  if (!wish.resolved) refuse_averaged(wish, scene);
+  if (const auto resolved = resolved_choice(wish, scene)) return *resolved;
+  const double cells = finest_that_fits(scene);
+  const AccuracyChoice finest = choice_with_cells(cells, wish, scene);
+  const AccuracyErrors& errors = finest.errors;
   throw_user_error(
-      {kWho, "accuracy", fmt::format("{:g} %", 100 * accuracy),
+      {kWho, "accuracy", fmt::format("{:g} %", 100 * wish.share),
        fmt::format("be above {:.2g} %, what {:.2g} cells a diameter give here",
-                   100 * kScatter * errors.together(), finest->cells),
+                   100 * kScatterOfPackings * errors.together(), finest.cells),
        errors.motion > errors.resolution ? "grains move too fast for finer: see `lbm collision`" : ""});
 }
 

@@ -13,4 +13,10 @@ struct EarlyStop {
   static inline bool requested = false;  ///< set by a fix, on all ranks in the same step
 };
 
+/// Of the last `run` of LIGGGHTS's: the share of its time in which this process was on a processor; the rest
+/// went to other programs. Of ranks that wait for each other, the one that had its processor least tells.
+struct LastRun {
+  static inline double share = 1;
+};
+
 }  // namespace suffuse

@@ -77,7 +77,7 @@ def check_refusals(program):
             (bed + "lbm accuracy 0.1%\n", ["accuracy = 0.1 %", "1.4"]),
             (bed + "unfix motion\nlbm accuracy 5%\n", ["velocity = none", "max_velocity"]),
             (bed + "lbm accuracy 5% max_speed 1\n", ["max_velocity, region"]),
-            (bed + "lbm method averaged\nlbm accuracy 5% max_velocity 1e-2\n", ["method = averaged"]),
+            (bed + "lbm method averaged\nlbm accuracy 5% max_velocity 1e-2\n", ["accuracy = 5 %", "the averaged flow"]),
             (wet_box(grains=0) + FLUID + "lbm accuracy 5% max_velocity 1e-2\n", ["grains = none"]),
         ], folder)
     expect(not amiss, "\n".join(amiss))

@@ -226,6 +226,17 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
                                            "print \"x\" file ${script_folder}/case_${case}.inc\n"
                                            "include ${script_folder}/case_${case}.inc\n");
   CHECK_NOTHROW(ScriptVariables(making, "x").require_choice("case", "C", "x"));
+  const std::string choosing =
+      scratch.write("in.choosing", "# -var case takes the place of tau, speed\nvariable case index none\n");
+  const auto of_both = [&](const std::string& value) {
+    return message_of([&] {
+      ScriptVariables(choosing, "x").require_no_two_for_one({{"case", value}, {"speed", "1"}}, "x");
+    });
+  };
+  CHECK(of_both("B") ==
+        "x: speed = 1, must not be given beside -var case B; case takes the place of tau, speed; drop one of "
+        "the two");
+  CHECK(of_both("none").empty());
   const std::string before = variables.fingerprint();
   scratch.write("case_B.inc", "variable speed index 2\n");
   CHECK(ScriptVariables(script, "x").fingerprint() != before);

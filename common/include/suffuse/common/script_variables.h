@@ -26,6 +26,10 @@ class ScriptVariables {
   /// folders (`include ${script_folder}/scale_${scale}.inc`) and no such file is there, nor made by the
   /// script; names those that are.
   void require_choice(const std::string& name, const std::string& value, const std::string& who) const;
+  /// Throws UserError where two variables are given of which one stands for the other: a line of the script
+  ///   # -var NAME takes the place of OTHER, OTHER
+  /// says so. NAME given as `none` takes no place.
+  void require_no_two_for_one(const std::map<std::string, std::string>& given, const std::string& who) const;
   /// Of the script and all that it includes: changes where any of them does (FNV-1a, 16 hexadecimal digits).
   std::string fingerprint() const;
 
