@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "mpi_benchmarks.h"
 #include "prescribed_grains.h"
 #include "random_packing.h"
 #include "suffuse/coupling/coupled_simulation.h"
@@ -69,11 +70,6 @@ CoupledSettings settings_of(const Scene& scene) {
   settings.solids.survey_distance = 0;
   settings.substeps = 1;
   return settings;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 double slowest(double mine) {
@@ -129,13 +125,6 @@ void run_scene(benchmark::State& state, const Scene& scene) {
       static_cast<double>(simulation.fluid().decomposition().local_box().volume());
 }
 
-/// Ranks other than the first take part in every run and say nothing.
-class Silent : public benchmark::BenchmarkReporter {
- public:
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>&) override {}
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -159,16 +148,7 @@ int main(int argc, char** argv) {
     scenes.push_back({"moving/subcells" + storage, precision, FractionMethod::subcells, true, false});
     scenes.push_back({"at_rest/exact" + storage, precision, FractionMethod::exact, false, false});
   }
-  for (const Scene& scene : scenes)
-    benchmark::RegisterBenchmark(scene.name.c_str(), run_scene, scene)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(11);  // every rank must make the same number, so none is left to a clock
-  Silent silent;
-  if (rank == 0)
-    benchmark::RunSpecifiedBenchmarks();
-  else
-    benchmark::RunSpecifiedBenchmarks(&silent);
+  run_benchmarks(scenes, run_scene, 11, rank);
   MPI_Finalize();
   return 0;
 }

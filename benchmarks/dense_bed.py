@@ -16,29 +16,19 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from scenes import HEADER, material  # noqa: E402
+
 SPACING, CELLS = 2e-4, (84, 84, 168)
 DIAMETER = 5 * SPACING
 VISCOSITY, RELAXATION_TIME, SUBSTEPS = 1e-5, 0.6, 10
 TIME_STEP = (RELAXATION_TIME - 0.5) / 3 * SPACING ** 2 / VISCOSITY
 
-SCRIPT = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-boundary f f f
-newton off
+SCRIPT = HEADER.format(boundary="f f f") + """
 processors {processors}
 read_data bed.data
-neighbor 1.5e-4 bin
-neigh_modify delay 0
 soft_particles yes
-fix modulus all property/global youngsModulus peratomtype 5e6
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
+""" + material(1.5e-4, "5e6", 0.7, 0.3) + """
 fix motion all nve/sphere
 fix weight all gravity 9.81 vector 0 0 -1
 fix xlo all wall/gran model hertz tangential history primitive type 1 xplane 0

@@ -22,23 +22,13 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from scenes import HEADER, material  # noqa: E402
+
 SCENE = ROOT / "input_scripts" / "01_isotropic_compression" / "in.isotropic_compression"
 SPLIT = 0.3e-3
 
-SCRIPT = """
-atom_style granular
-atom_modify map array
-communicate single vel yes
-newton off
-read_restart {sample}
-neighbor 2e-5 bin
-neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 0.7e9
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
+SCRIPT = HEADER.format(boundary="p p p") + "read_restart {sample}\n" + material(2e-5, "0.7e9", 0.7, 0.3) + """
 fix motion all nve/sphere
 timestep 5.9e-8
 thermo_style custom step atoms

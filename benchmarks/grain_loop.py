@@ -17,23 +17,13 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-SCRIPT = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-boundary p p p
-newton off
+sys.path.insert(0, str(ROOT / "tests" / "support"))
+from scenes import HEADER, material  # noqa: E402
+
+SCRIPT = HEADER.format(boundary="p p p") + """
 {read}
-neighbor {skin} bin
-neigh_modify delay 0
 hard_particles yes
-fix modulus all property/global youngsModulus peratomtype {modulus}
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history {contact_options}
-pair_coeff * *
+""" + material("{skin}", "{modulus}", 0.7, 0.3, law="hertz tangential history {contact_options}") + """
 fix motion all nve/sphere
 timestep {step}
 thermo_style custom step atoms

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "mpi_benchmarks.h"
 #include "suffuse/lbm/fluid.h"
 
 namespace {
@@ -45,11 +46,6 @@ double seconds(int sweeps, Body&& body) {
   double mine = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), all = 0;
   MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   return all;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 void run_scene(benchmark::State& state, const Scene& scene) {
@@ -118,13 +114,6 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-/// Ranks other than the first take part in every run and say nothing.
-class Silent : public benchmark::BenchmarkReporter {
- public:
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>&) override {}
-};
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -132,16 +121,7 @@ int main(int argc, char** argv) {
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   benchmark::Initialize(&argc, argv);
-  for (const Scene& scene : scenes())
-    benchmark::RegisterBenchmark(scene.name.c_str(), run_scene, scene)
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond)
-        ->Iterations(21);  // every rank must make the same number, so none is left to a clock
-  Silent silent;
-  if (rank == 0)
-    benchmark::RunSpecifiedBenchmarks();
-  else
-    benchmark::RunSpecifiedBenchmarks(&silent);
+  run_benchmarks(scenes(), run_scene, 21, rank);
   MPI_Finalize();
   return 0;
 }

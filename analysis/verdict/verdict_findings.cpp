@@ -13,54 +13,36 @@ namespace {
 
 using namespace micromechanics;
 
-/// The groups, what is in them, and why these may differ among themselves; in the order of the report.
-struct GroupOfCriteria {
-  const char* name;
-  std::vector<std::string_view> criteria;
-  const char* why;
+/// The groups and why the criteria in one may differ, in the order of the report.
+struct GroupWords {
+  CriterionGroup group;
+  const char *name, *why;
 };
-const std::vector<GroupOfCriteria>& criteria_by_group() {
-  static const std::vector<GroupOfCriteria> groups{
-      {"sizes of both parts of the grading",
-       {"Kezdi", "Sherard", "Chapuis, Kezdi's slope"},
-       "Sherard allows 5 where Kezdi allows 4, and Chapuis reads Kezdi's criterion from the slope alone"},
-      {"shape of the curve",
-       {"Lubochkov", "Kenney and Lau", "Chapuis, Kenney and Lau's slope", "Li and Fannin"},
-       "Lubochkov looks at neighbouring parts of the curve and is sharp at any gap; Li and Fannin take the "
-       "stricter of two lines"},
-      {"gap, fines, uniformity",
-       {"USACE", "Istomina", "Honjo", "Liu"},
-       "each knows one number: Istomina d60/d10, Honjo the gap, Liu the fines content"},
-      {"ratios of coarse and fine sizes",
-       {"Burenkova", "Wan and Fell, probability", "Wan and Fell, slopes"},
-       "they were drawn from tests on broadly graded soils, each in its own way"},
-      {"constriction sizes",
-       {"Kovacs", "Indraratna 2007, filter", "Indraratna 2011", "Chapter 4 of the thesis", "Indraratna 2015",
-        "Israr and Indraratna 2017, cyclic"},
-       "Kovacs's mean pore follows from the porosity, the others look at the discs between grains, with "
-       "limits from 0.73 to 1 "
-       "and at different densities"},
-      {"Z and alpha, predicted",
-       {"Z by eq 4.7", "Stress reduction by eq 4.8"},
-       "both are fits that scatter"}};
-  return groups;
-}
+constexpr GroupWords kGroups[] = {
+    {CriterionGroup::sizes_of_parts, "sizes of both parts of the grading",
+     "Sherard allows 5 where Kezdi allows 4, and Chapuis reads Kezdi's criterion from the slope alone"},
+    {CriterionGroup::shape_of_curve, "shape of the curve",
+     "Lubochkov looks at neighbouring parts of the curve and is sharp at any gap; Li and Fannin take the "
+     "stricter of two lines"},
+    {CriterionGroup::one_number, "gap, fines, uniformity",
+     "each knows one number: Istomina d60/d10, Honjo the gap, Liu the fines content"},
+    {CriterionGroup::size_ratios, "ratios of coarse and fine sizes",
+     "they were drawn from tests on broadly graded soils, each in its own way"},
+    {CriterionGroup::constrictions, "constriction sizes",
+     "Kovacs's mean pore follows from the porosity, the others look at the discs between grains, with "
+     "limits from 0.73 to 1 "
+     "and at different densities"},
+    {CriterionGroup::predicted, "Z and alpha, predicted", "both are fits that scatter"}};
 
 std::vector<CriteriaGroup> grouped(const VerdictFindings& findings) {
-  std::vector<CriterionResult> all = findings.grading;
-  all.insert(all.end(), findings.constriction.begin(), findings.constriction.end());
   std::vector<CriteriaGroup> groups;
-  std::size_t found = 0;
-  for (const GroupOfCriteria& group : criteria_by_group()) {
+  for (const GroupWords& group : kGroups) {
     CriteriaGroup one{group.name, {}, group.why};
-    for (const CriterionResult& result : all)
-      if (std::find(group.criteria.begin(), group.criteria.end(), result.criterion) != group.criteria.end())
-        one.results.push_back(result);
-    found += one.results.size();
+    for (const auto* results : {&findings.grading, &findings.constriction})
+      for (const CriterionResult& result : *results)
+        if (result.group == group.group) one.results.push_back(result);
     if (!one.results.empty()) groups.push_back(std::move(one));
   }
-  if (found != all.size())
-    throw std::logic_error("verdict: a criterion is in no group of criteria_by_group()");
   if (!findings.measured.empty()) groups.push_back({kMeasuredGroup, findings.measured, ""});
   return groups;
 }

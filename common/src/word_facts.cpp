@@ -15,4 +15,13 @@ std::string NumberRange::text() const {
   return both;
 }
 
+WordFacts facts_of(const NumberWord& word, const std::string& standard) {
+  return {word.word, word.symbol, word.unit, word.range.text(), standard, word.meaning};
+}
+
+std::string word_row(const std::string& line, const char* place, const WordFacts& word) {
+  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", line, place, word.word, word.value, word.unit,
+                     word.range, word.standard, word.kept ? "kept" : "", word.meaning);
+}
+
 }  // namespace suffuse

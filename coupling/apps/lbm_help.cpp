@@ -30,11 +30,6 @@ std::string help_of(const CommandFacts& line) {
   return text;
 }
 
-std::string row(const CommandFacts& line, const WordFacts& word, const char* place) {
-  return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", line.name, place, word.word, word.value,
-                     word.unit, word.range, word.standard, word.kept ? "kept" : "", word.meaning);
-}
-
 }  // namespace
 
 std::string lbm_help(const std::string& line) {
@@ -47,11 +42,11 @@ std::string lbm_help(const std::string& line) {
 }
 
 std::string words_text() {
-  std::string text = "line\tplace\tword\tvalue\tunit\trange\tdefault\tkept\tmeaning\n";
+  std::string text = kWordTitles;
   for (const CommandFacts& line : coupling::lbm_commands()) {
-    text += row(line, {"", line.form, "", "", "", line.meaning}, "line");
-    for (const WordFacts& word : line.first) text += row(line, word, "first");
-    for (const WordFacts& word : line.words) text += row(line, word, "any");
+    text += word_row(line.name, "line", {"", line.form, "", "", "", line.meaning});
+    for (const WordFacts& word : line.first) text += word_row(line.name, "first", word);
+    for (const WordFacts& word : line.words) text += word_row(line.name, "any", word);
   }
   return text;
 }

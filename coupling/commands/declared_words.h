@@ -164,7 +164,7 @@ struct Declare {
   template <class Place>
   static W number(const NumberWord& n, Place place) {
     Request standard;
-    return {{n.word, n.symbol, n.unit, n.range.text(), written(place(standard)), n.meaning},
+    return {facts_of(n, written(place(standard))),
             [n, place](ArgumentReader& reader, LAMMPS_NS::LAMMPS*, Request& request) {
               place(request) = read_number(reader, n.word, n.range);
             }};

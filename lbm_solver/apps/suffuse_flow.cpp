@@ -20,6 +20,7 @@
 #include "suffuse/common/time_series_file.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/flow_case.h"
+#include "suffuse/lbm/flow_words.h"
 #include "suffuse/lbm/health.h"
 #include "suffuse/lbm/run_loop.h"
 
@@ -288,6 +289,11 @@ int main(int argc, char** argv) {
   std::string path;
   app.add_option("case", path, "case file (docs/lbm/suffuse-flow.md)")->required();
   app.set_version_flag("--version", SUFFUSE_VERSION);
+  const auto print_words = [rank] {  // for scripts/reference_tables
+    if (rank == 0) fmt::print("{}", flow_words_text());
+    throw CLI::Success();
+  };
+  app.add_flag_callback("--words", print_words)->group("");
   int status = 0;
   try {
     app.parse(argc, argv);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "suffuse/common/collective_text.h"
@@ -57,7 +58,9 @@ std::vector<float> values_of(Field field, const Fluid& fluid, const Units& units
 
 std::string xdmf_array(const std::string& file, const Snapshot& snapshot, const std::string& field,
                        const Index3& cells) {
-  const bool vector = field == "velocity";
+  const bool vector = std::any_of(std::begin(kFields), std::end(kFields), [&](const FieldFacts& facts) {
+    return facts.word == field && facts.components == 3;
+  });
   return fmt::format(
       "        <Attribute Name=\"{0}\" AttributeType=\"{1}\" Center=\"Cell\">\n"
       "          <DataItem Dimensions=\"{2} {3} {4}{5}\" NumberType=\"Float\" Precision=\"4\" Format=\"HDF\">"

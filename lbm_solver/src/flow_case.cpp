@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <numbers>
 #include <set>
+#include <stdexcept>
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/safe_file.h"
@@ -20,45 +20,52 @@ namespace suffuse::lbm {
 
 namespace {
 
-/// One table of the file, which knows its name for messages and refuses keys that nobody asks for.
+/// The declared keys of a table of the file; those of the file itself are its tables.
+std::vector<std::string> keys_of(const std::string& table) {
+  std::vector<std::string> keys;
+  for (const FlowTable& declared : flow_tables()) {
+    if (table.empty() && declared.name.find('.') == std::string::npos) keys.push_back(declared.name);
+    if (table == declared.name)
+      for (const WordFacts& word : declared.words) keys.push_back(word.word);
+  }
+  return keys;
+}
+
+/// One table of the file, which knows its name for messages and refuses keys that are not declared.
 class Section {
  public:
+  /// A table of the file's root.
+  Section(const std::string& file, const std::string& name, const toml::table& root)
+      : Section(file, name, root.get(name), keys_of(name)) {}
+
   /// `node` null: the file has no such table, and everything in it its default.
   Section(const std::string& file, const std::string& name, const toml::node* node,
-          std::initializer_list<const char*> keys)
-      : who_(file + " [" + name + "]"), table_(node == nullptr ? nullptr : node->as_table()) {
+          std::vector<std::string> keys)
+      : who_(file + " [" + name + "]"),
+        keys_(std::move(keys)),
+        table_(node == nullptr ? nullptr : node->as_table()) {
     if (node != nullptr && table_ == nullptr)
       throw_user_error(
           {file, name, "(another kind of value)", "be a table", fmt::format("write `[{}]`", name)});
     if (table_ == nullptr) return;
     for (const auto& [key, value] : *table_) {
       const std::string word(key.str());
-      if (std::none_of(keys.begin(), keys.end(), [&](const char* k) { return word == k; }))
-        throw_user_error({who_, "key", word, fmt::format("be one of {}", fmt::join(keys, ", ")), ""});
+      if (!is_declared(word))
+        throw_user_error({who_, "key", word, fmt::format("be one of {}", fmt::join(keys_, ", ")), ""});
     }
   }
 
   const std::string& who() const { return who_; }
   bool given() const { return table_ != nullptr; }
 
-  std::optional<double> number(const char* key) const {
+  std::optional<double> finite_number(const char* key) const {
     const std::optional<double> value = get<double>(key, "be a number");
     if (value && !std::isfinite(*value)) refuse(key, *value, "be finite");
     return value;
   }
   std::optional<double> number(const NumberWord& word) const {
-    const std::optional<double> value = number(word.word);
+    const std::optional<double> value = finite_number(word.word);
     if (value && !word.range.holds(*value)) refuse(word.word, *value, word.range.rule().c_str());
-    return value;
-  }
-  std::optional<double> positive(const char* key) const {
-    const std::optional<double> value = number(key);
-    if (value && !(*value > 0)) refuse(key, *value, "be > 0");
-    return value;
-  }
-  std::optional<double> not_negative(const char* key) const {
-    const std::optional<double> value = number(key);
-    if (value && *value < 0) refuse(key, *value, "be >= 0");
     return value;
   }
   std::optional<std::string> text(const char* key) const {
@@ -87,7 +94,10 @@ class Section {
     return values;
   }
 
-  const toml::node* find(const char* key) const { return table_ == nullptr ? nullptr : table_->get(key); }
+  const toml::node* find(const std::string& key) const {
+    if (!is_declared(key)) throw std::logic_error("flow case: " + who_ + " has no word " + key);
+    return table_ == nullptr ? nullptr : table_->get(key);
+  }
 
   [[noreturn]] void refuse(const char* key, double value, const char* rule) const {
     throw_user_error({who_, key, fmt::format("{}", value), rule, ""});
@@ -103,7 +113,12 @@ class Section {
     return value;
   }
 
+  bool is_declared(const std::string& key) const {
+    return std::find(keys_.begin(), keys_.end(), key) != keys_.end();
+  }
+
   std::string who_;
+  std::vector<std::string> keys_;
   const toml::table* table_;
 };
 
@@ -120,7 +135,7 @@ Choice choose(const Section& section, const char* key, const std::string& word,
 
 FlowFace read_face(const std::string& file, const Section& boundary, const std::string& name) {
   FlowFace face;
-  const toml::node* node = boundary.find(name.c_str());
+  const toml::node* node = boundary.find(name);
   if (node == nullptr) return face;
   if (const std::optional<std::string> word = node->value<std::string>()) {
     face.kind = choose(boundary, name.c_str(), *word, face_kind_words());
@@ -132,7 +147,7 @@ FlowFace read_face(const std::string& file, const Section& boundary, const std::
   if (node->as_table() == nullptr)
     throw_user_error(
         {boundary.who(), name, "(another kind of value)", "be a kind or { kind, value, ramp }", ""});
-  const Section table(file, "boundary." + name, node, {"kind", "value", "ramp"});
+  const Section table(file, "boundary." + name, node, keys_of("boundary.FACE"));
   const std::string kind = table.text("kind").value_or("missing");
   face.kind = choose(table, "kind", kind, face_kind_words());
   const bool valued = face.kind == FaceKind::velocity || face.kind == FaceKind::pressure;
@@ -140,25 +155,22 @@ FlowFace read_face(const std::string& file, const Section& boundary, const std::
     throw_user_error({table.who(), "kind", kind, valued ? "come with a value" : "come without value and ramp",
                       "velocity takes [x, y, z] in m/s, pressure a number in Pa"});
   if (face.kind == FaceKind::velocity) face.velocity_si = *table.vector("value");
-  if (face.kind == FaceKind::pressure) face.pressure_si = *table.number("value");
-  face.ramp = table.not_negative("ramp").value_or(0);
+  if (face.kind == FaceKind::pressure) face.pressure_si = *table.finite_number("value");
+  face.ramp = table.number(kRampWord).value_or(0);
   return face;
 }
 
 void read_lattice(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section fluid(file, "fluid", root.get("fluid"), {kDensityWord.word, kViscosityWord.word});
+  const Section fluid(file, "fluid", root);
   flow.units.density = fluid.number(kDensityWord).value_or(flow.units.density);
   flow.units.viscosity = fluid.number(kViscosityWord).value_or(flow.units.viscosity);
-  const Section lattice(file, "lattice", root.get("lattice"),
-                        {"size", kSpacingWord.word, kRelaxationTimeWord.word, kTimestepWord.word,
-                         kMachWord.word, kMaxVelocityWord.word, "pressure_difference", "precision",
-                         "collision", kMagicWord.word, "smagorinsky", "incompressible"});
+  const Section lattice(file, "lattice", root);
   flow.units.spacing = lattice.number(kSpacingWord);
   flow.units.relaxation_time = lattice.number(kRelaxationTimeWord);
   flow.units.time_step = lattice.number(kTimestepWord);
   flow.units.mach = lattice.number(kMachWord);
   flow.units.largest_velocity = lattice.number(kMaxVelocityWord);
-  flow.units.pressure_difference = lattice.number("pressure_difference");
+  flow.units.pressure_difference = lattice.number(kPressureDifferenceWord);
   const std::optional<Vec3> size = lattice.vector("size");
   if (!size || !(size->minCoeff() > 0))
     throw_user_error({lattice.who(), "size", size ? "not positive" : "missing", "be three lengths in m", ""});
@@ -170,12 +182,12 @@ void read_lattice(const std::string& file, const toml::table& root, FlowCase& fl
   if (lattice.find(kMagicWord.word) != nullptr && !has_magic(flow.collision.collision_operator))
     throw_user_error({lattice.who(), "magic", "given", "go with " + words_with_magic(), "drop it"});
   flow.collision.magic = lattice.number(kMagicWord).value_or(flow.collision.magic);
-  flow.collision.smagorinsky = lattice.not_negative("smagorinsky").value_or(0);
+  flow.collision.smagorinsky = lattice.number(kSmagorinskyWord).value_or(0);
   flow.collision.incompressible = lattice.truth("incompressible").value_or(false);
 }
 
 void read_spheres(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section solids(file, "solids", root.get("solids"), {"spheres"});
+  const Section solids(file, "solids", root);
   const toml::node* node = solids.find("spheres");
   if (node == nullptr) return;
   const toml::array* array = node->as_array();
@@ -225,10 +237,10 @@ void refuse_shared_files(const std::string& file, const FlowCase& flow) {
 }
 
 void read_files(const std::string& file, const toml::table& root, FlowCase& flow) {
-  const Section monitor(file, "monitor", root.get("monitor"), {"file", kEveryWord.word});
+  const Section monitor(file, "monitor", root);
   flow.monitor_file = file_name(monitor, "file");
   flow.monitor_every = monitor.number(kEveryWord).value_or(flow.time / 100);
-  const Section output(file, "output", root.get("output"), {"file", kEveryWord.word, "fields", "append"});
+  const Section output(file, "output", root);
   if (const std::string path = file_name(output, "file"); !path.empty()) {
     flow.output.emplace();
     flow.output->path = path;
@@ -236,7 +248,7 @@ void read_files(const std::string& file, const toml::table& root, FlowCase& flow
     flow.output_every = output.number(kEveryWord).value_or(flow.time);
     if (output.find("fields") != nullptr) flow.output->fields = read_fields(output);
   }
-  const Section restart(file, "restart", root.get("restart"), {"read", "write"});
+  const Section restart(file, "restart", root);
   flow.restart_read = restart.text("read").value_or("");
   flow.restart_write = restart.text("write").value_or("");
   refuse_shared_files(file, flow);
@@ -246,24 +258,22 @@ void read_files(const std::string& file, const toml::table& root, FlowCase& flow
 
 FlowCase read_flow_case(const std::string& path) {
   const toml::table root = read_toml(path, "suffuse-flow");
-  const Section top(
-      path, "top level", &root,
-      {"fluid", "lattice", "boundary", "force", "solids", "run", "monitor", "output", "restart"});
+  const Section top(path, "top level", &root, keys_of(""));
   FlowCase flow;
   read_lattice(path, root, flow);
-  const Section boundary(path, "boundary", root.get("boundary"), {"xlo", "xhi", "ylo", "yhi", "zlo", "zhi"});
+  const Section boundary(path, "boundary", root);
   for (std::size_t f = 0; f < kFaces; ++f)
     flow.faces[f] = read_face(path, boundary, name_of(static_cast<Face>(f)));
-  const Section force(path, "force", root.get("force"), {"acceleration", "pressure_gradient", "frequency"});
+  const Section force(path, "force", root);
   flow.acceleration = force.vector("acceleration").value_or(Vec3::Zero());
   flow.pressure_gradient = force.vector("pressure_gradient").value_or(Vec3::Zero());
-  flow.frequency = force.not_negative("frequency").value_or(0);
+  flow.frequency = force.number(kFrequencyWord).value_or(0);
   read_spheres(path, root, flow);
-  const Section run(path, "run", root.get("run"), {"time", "until_steady"});
-  const std::optional<double> time = run.positive("time");
+  const Section run(path, "run", root);
+  const std::optional<double> time = run.number(kTimeWord);
   if (!time) throw_user_error({run.who(), "time", "missing", "be > 0 s", ""});
   flow.time = *time;
-  flow.until_steady = run.positive("until_steady");
+  flow.until_steady = run.number(kUntilSteadyWord);
   if (flow.until_steady && *flow.until_steady >= 1)
     run.refuse("until_steady", *flow.until_steady, "be below 1: it is a share of the mean velocity");
   if (flow.until_steady && flow.frequency > 0)

@@ -56,12 +56,6 @@ std::vector<double> ComputeBrokenContacts::reference_values() const {
   return values;
 }
 
-double ComputeBrokenContacts::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeBrokenContacts::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();

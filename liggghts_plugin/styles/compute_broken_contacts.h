@@ -25,7 +25,6 @@ class ComputeBrokenContacts : public ContactCompute {
  public:
   ComputeBrokenContacts(LAMMPS* lmp, int& iarg, int narg, char** arg);
   ~ComputeBrokenContacts() override;
-  double compute_scalar() override;
   void compute_vector() override;
 
  private:

@@ -27,18 +27,9 @@ double verdict(double ratio) {
 ComputeConstraintRatio::ComputeConstraintRatio(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
-  while (!reader.done()) {
-    const std::string key = reader.keyword();
-    if (!read_sliding_rule(key, reader, rule_)) reader.unknown(key, "tolerance, appendix");
-  }
+  rule_ = read_sliding_words(reader);
   need_friction();
   declare_vector(6);
-}
-
-double ComputeConstraintRatio::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
 }
 
 void ComputeConstraintRatio::compute_vector() {

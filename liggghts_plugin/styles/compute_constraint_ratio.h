@@ -19,7 +19,6 @@ namespace LAMMPS_NS {
 class ComputeConstraintRatio : public ContactCompute {
  public:
   ComputeConstraintRatio(LAMMPS* lmp, int& iarg, int narg, char** arg);
-  double compute_scalar() override;
   void compute_vector() override;
 
  private:

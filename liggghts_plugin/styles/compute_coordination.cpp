@@ -23,12 +23,6 @@ ComputeCoordination::ComputeCoordination(LAMMPS* lmp_in, int& iarg, int narg, ch
   size_peratom_cols = 0;
 }
 
-double ComputeCoordination::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeCoordination::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();

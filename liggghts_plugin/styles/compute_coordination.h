@@ -18,7 +18,6 @@ namespace LAMMPS_NS {
 class ComputeCoordination : public ContactCompute {
  public:
   ComputeCoordination(LAMMPS* lmp, int& iarg, int narg, char** arg);
-  double compute_scalar() override;
   void compute_vector() override;
   void compute_peratom() override;
 

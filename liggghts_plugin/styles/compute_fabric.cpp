@@ -15,12 +15,6 @@ ComputeFabric::ComputeFabric(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
   declare_array(kOrientationBins, 7);
 }
 
-double ComputeFabric::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeFabric::compute_vector() {
   invoked_vector = update->ntimestep;
   const FabricSums sums = over_ranks(fabric_sums(packing()));

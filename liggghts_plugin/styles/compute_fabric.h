@@ -18,7 +18,6 @@ namespace LAMMPS_NS {
 class ComputeFabric : public ContactCompute {
  public:
   ComputeFabric(LAMMPS* lmp, int& iarg, int narg, char** arg);
-  double compute_scalar() override;
   void compute_vector() override;
   void compute_array() override;
 };

@@ -80,12 +80,6 @@ ComputeFinesLayer::Sums ComputeFinesLayer::sums() {
   return sums;
 }
 
-double ComputeFinesLayer::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeFinesLayer::compute_vector() {
   invoked_vector = update->ntimestep;
   const Sums layers = sums();

@@ -23,7 +23,6 @@ class ComputeFinesLayer : public ContactCompute {
  public:
   ComputeFinesLayer(LAMMPS* lmp, int& iarg, int narg, char** arg);
   void init() override;
-  double compute_scalar() override;
   void compute_vector() override;
   void compute_array() override;
 

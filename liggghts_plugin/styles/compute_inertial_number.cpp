@@ -76,12 +76,6 @@ double ComputeInertialNumber::median_diameter_by_mass() {
   return diameter_finer_than(all, 0.5);
 }
 
-double ComputeInertialNumber::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeInertialNumber::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();

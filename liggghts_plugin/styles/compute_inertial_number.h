@@ -23,7 +23,6 @@ class ComputeInertialNumber : public ContactCompute {
  public:
   ComputeInertialNumber(LAMMPS* lmp, int& iarg, int narg, char** arg);
   void init() override;
-  double compute_scalar() override;
   void compute_vector() override;
 
  private:

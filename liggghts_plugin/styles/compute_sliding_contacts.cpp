@@ -21,21 +21,21 @@ bool LAMMPS_NS::read_sliding_rule(const std::string& key, suffuse::ArgumentReade
   return true;
 }
 
+SlidingRule LAMMPS_NS::read_sliding_words(suffuse::ArgumentReader& reader) {
+  SlidingRule rule;
+  while (!reader.done()) {
+    const std::string key = reader.keyword();
+    if (!read_sliding_rule(key, reader, rule)) reader.unknown(key, "tolerance, appendix");
+  }
+  return rule;
+}
+
 ComputeSlidingContacts::ComputeSlidingContacts(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : ContactCompute(lmp_in, iarg, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, iarg);
-  while (!reader.done()) {
-    const std::string key = reader.keyword();
-    if (!read_sliding_rule(key, reader, rule_)) reader.unknown(key, "tolerance, appendix");
-  }
+  rule_ = read_sliding_words(reader);
   need_friction();
   declare_vector(4);
-}
-
-double ComputeSlidingContacts::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
 }
 
 void ComputeSlidingContacts::compute_vector() {

@@ -19,7 +19,6 @@ namespace LAMMPS_NS {
 class ComputeSlidingContacts : public ContactCompute {
  public:
   ComputeSlidingContacts(LAMMPS* lmp, int& iarg, int narg, char** arg);
-  double compute_scalar() override;
   void compute_vector() override;
 
  private:
@@ -29,6 +28,8 @@ class ComputeSlidingContacts : public ContactCompute {
 /// Reads `tolerance T` or `appendix` where `key` is one of them; false if it is neither.
 bool read_sliding_rule(const std::string& key, suffuse::ArgumentReader& reader,
                        suffuse::micromechanics::SlidingRule& rule);
+/// The rest of a line that has these words alone.
+suffuse::micromechanics::SlidingRule read_sliding_words(suffuse::ArgumentReader& reader);
 
 }  // namespace LAMMPS_NS
 

@@ -87,12 +87,6 @@ std::vector<LayerSums> ComputeStressLayer::sums() {
   return layers;
 }
 
-double ComputeStressLayer::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeStressLayer::compute_vector() {
   invoked_vector = update->ntimestep;
   const std::vector<LayerSums> layers = sums();

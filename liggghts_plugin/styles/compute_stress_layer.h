@@ -22,7 +22,6 @@ class ComputeStressLayer : public ContactCompute {
  public:
   ComputeStressLayer(LAMMPS* lmp, int& iarg, int narg, char** arg);
   void init() override;
-  double compute_scalar() override;
   void compute_vector() override;
   void compute_array() override;
 

@@ -39,12 +39,6 @@ ComputeStressReduction::ComputeStressReduction(LAMMPS* lmp_in, int& iarg, int na
   size_peratom_cols = 6;
 }
 
-double ComputeStressReduction::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeStressReduction::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();

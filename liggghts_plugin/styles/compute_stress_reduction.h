@@ -20,7 +20,6 @@ namespace LAMMPS_NS {
 class ComputeStressReduction : public ContactCompute {
  public:
   ComputeStressReduction(LAMMPS* lmp, int& iarg, int narg, char** arg);
-  double compute_scalar() override;
   void compute_vector() override;
   void compute_peratom() override;
 

@@ -56,12 +56,6 @@ void ComputeStrongContacts::keep_threshold() {
   if (const auto restored = FixComputeReference::keep_for(lmp, *this, values)) threshold_ = restored->at(0);
 }
 
-double ComputeStrongContacts::compute_scalar() {
-  compute_vector();
-  invoked_scalar = update->ntimestep;
-  return scalar = values_[0];
-}
-
 void ComputeStrongContacts::compute_vector() {
   invoked_vector = update->ntimestep;
   const Packing& sample = packing();

@@ -20,7 +20,6 @@ class ComputeStrongContacts : public ContactCompute {
  public:
   ComputeStrongContacts(LAMMPS* lmp, int& iarg, int narg, char** arg);
   ~ComputeStrongContacts() override;
-  double compute_scalar() override;
   void compute_vector() override;
 
  private:

@@ -2,6 +2,7 @@
 
 #include "fix_contact_sampler.h"
 #include "lammps.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 
@@ -63,6 +64,12 @@ const suffuse::micromechanics::Packing& ContactCompute::packing() {
 void ContactCompute::need_friction() {
   needs_friction_ = true;
   FixContactSampler::of(lmp).add_friction_user(this);
+}
+
+double ContactCompute::compute_scalar() {
+  compute_vector();
+  invoked_scalar = update->ntimestep;
+  return scalar = values_[0];
 }
 
 void ContactCompute::declare_vector(int length) {

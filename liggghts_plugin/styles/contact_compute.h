@@ -22,6 +22,8 @@ class ContactCompute : public Compute {
  public:
   ~ContactCompute() override;
   void init() override;
+  /// The first value of the vector.
+  double compute_scalar() override;
 
  protected:
   ContactCompute(LAMMPS* lmp, int& iarg, int narg, char** arg);

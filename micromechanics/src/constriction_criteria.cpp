@@ -139,14 +139,15 @@ std::vector<CriterionResult> constriction_criteria(const ConstrictionAnalysis& a
   results.push_back({"Israr and Indraratna 2017, cyclic", "Dc35/d85f at Rd = 0", loosest,
                      fmt::format("stable <= {:g}", limits.cyclic_2017),
                      stable_if(loosest <= limits.cyclic_2017), "israrindraratna2017", "loosest state"});
+  for (CriterionResult& result : results) result.group = CriterionGroup::constrictions;
   results.push_back({"Z by eq 4.7", "Z", analysis.coordination,
                      fmt::format("unstable <= {:g}", limits.coordination),
                      stable_if(analysis.coordination > limits.coordination), "haq",
-                     "a fit; 0.69 rms off the thesis's own Table 4.1"});
+                     "a fit; 0.69 rms off the thesis's own Table 4.1", CriterionGroup::predicted});
   results.push_back({"Stress reduction by eq 4.8", "alpha", analysis.stress_reduction,
                      fmt::format("unstable <= {:g}", limits.stress_reduction),
                      stable_if(analysis.stress_reduction > limits.stress_reduction), "haq",
-                     "a fit; 0.23 rms off the thesis's own Table 4.1"});
+                     "a fit; 0.23 rms off the thesis's own Table 4.1", CriterionGroup::predicted});
   return results;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace suffuse::micromechanics {
 
@@ -413,11 +414,27 @@ CriterionResult wan_fell_slopes(const Grading& grading, const StabilityLimits& l
 }
 
 std::vector<CriterionResult> grading_criteria(const Grading& grading, const StabilityLimits& limits) {
+  using Group = CriterionGroup;
+  using Criterion = CriterionResult (*)(const Grading&, const StabilityLimits&);
+  static constexpr std::pair<Criterion, Group> criteria[] = {{usace, Group::one_number},
+                                                             {istomina, Group::one_number},
+                                                             {lubochkov, Group::shape_of_curve},
+                                                             {kezdi, Group::sizes_of_parts},
+                                                             {sherard, Group::sizes_of_parts},
+                                                             {kenney_lau, Group::shape_of_curve},
+                                                             {chapuis_kezdi, Group::sizes_of_parts},
+                                                             {chapuis_kenney_lau, Group::shape_of_curve},
+                                                             {burenkova, Group::size_ratios},
+                                                             {honjo, Group::one_number},
+                                                             {liu, Group::one_number},
+                                                             {wan_fell_probability, Group::size_ratios},
+                                                             {wan_fell_slopes, Group::size_ratios},
+                                                             {li_fannin, Group::shape_of_curve}};
   std::vector<CriterionResult> results;
-  for (const auto criterion :
-       {usace, istomina, lubochkov, kezdi, sherard, kenney_lau, chapuis_kezdi, chapuis_kenney_lau, burenkova,
-        honjo, liu, wan_fell_probability, wan_fell_slopes, li_fannin})
+  for (const auto& [criterion, group] : criteria) {
     results.push_back(criterion(grading, limits));
+    results.back().group = group;
+  }
   return results;
 }
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(__import__("pathlib").Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, mistakes_not_named, program_from_command_line  # noqa: E402
+from scenes import HEADER, Program, material, mistakes_not_named, program_from_command_line  # noqa: E402
 
 MATERIALS = """
 neighbor {skin} {style}
@@ -27,15 +27,6 @@ fix m9 all property/global gamman peratomtypepair 2 100 110 110 120
 fix m10 all property/global gammat peratomtypepair 2 50 55 55 60
 pair_style gran model {model}
 pair_coeff * *
-"""
-
-HEADER = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-boundary {boundary}
-newton off
 """
 
 # Grains of two materials and three sizes in a box that shrinks, moving every way.
@@ -155,14 +146,7 @@ def check_restarts(stock, program, folder):
 RETOUCH = HEADER.format(boundary="f f f") + """
 region box block -0.01 0.01 -0.01 0.01 -0.01 0.02 units box
 create_box 1 box
-neighbor 2e-3 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history {options}
-pair_coeff * *
+""" + material(2e-3, "5e6", 0.9, 0.5, law="hertz tangential history {options}") + """
 timestep 1e-6
 create_atoms 1 single 0 0 0 units box
 create_atoms 1 single 0 0 0.001999 units box
@@ -205,14 +189,7 @@ def check_lost_springs(stock, program, folder):
 NECK = HEADER.format(boundary="f f f") + """
 region box block -0.03 0.03 -0.02 0.02 -0.02 0.02 units box
 create_box 1 box
-neighbor 2e-4 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e8
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.5
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history tangential_damping off {options}
-pair_coeff * *
+""" + material(2e-4, "5e8", 0.5, 0.5, law="hertz tangential history tangential_damping off {options}") + """
 timestep {step}
 create_atoms 1 single 0.005 2.7937481665e-5 {height} units box
 create_atoms 1 single 0 0 0 units box

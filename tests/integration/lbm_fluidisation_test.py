@@ -8,7 +8,7 @@ import pathlib
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import HEADER, expect, columns, program_from_command_line, scratch  # noqa: E402
+from scenes import HEADER, columns, expect, material, program_from_command_line, scratch  # noqa: E402
 
 D, WIDTH, GRAINS = 3.5e-4, 5 * 3.5e-4, 150
 HEAD_OF_A_GRAIN = 1.65 * 3.14159265358979 / 6 * D ** 3 / WIDTH ** 2  # m: its weight in water over the column's area
@@ -18,15 +18,7 @@ SCENE = HEADER.format(boundary="p p f") + f"""
 processors 1 1 *
 region column block 0 {WIDTH} 0 {WIDTH} 0 {12 * D} units box
 create_box 1 column
-neighbor 5e-5 bin
-neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 5e6
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.3
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
-fix motion all nve/sphere
+{material(5e-5, "5e6", 0.3, 0.3)}fix motion all nve/sphere
 fix weight all gravity 9.81 vector 0 0 -1
 fix floor all wall/gran model hertz tangential history primitive type 1 zplane 0
 fix lid all wall/gran model hertz tangential history primitive type 1 zplane {12 * D}

@@ -11,28 +11,13 @@ import random
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import expect, program_from_command_line, scratch  # noqa: E402
+from scenes import HEADER, expect, material, program_from_command_line, scratch  # noqa: E402
 
 VISCOSITY, OUTER, INNER = 1.2e-3, 1e-4, 2e-5
 LENGTH, HEIGHT = 3e-3, 4e-3
 DENSITY = 2650
 
-SCENE = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-boundary {boundary}
-newton off
-read_data grains.data
-neighbor {skin} bin
-neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 7e8
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
+SCENE = HEADER + "read_data grains.data\n" + material("{skin}", "7e8", 0.7, 0.3) + """
 fix motion all nve/sphere
 timestep {step}
 compute spin all erotate/sphere

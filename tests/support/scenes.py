@@ -28,8 +28,9 @@ boundary {boundary}
 newton off
 """
 
-def material(skin=1e-4, modulus="7e8", restitution=0.7, friction="{friction}"):
-    """Neighbours and contact law of one type of grains; `friction` may be filled in later."""
+
+def material(skin=1e-4, modulus="7e8", restitution=0.7, friction="{friction}", law="hertz tangential history"):
+    """Neighbours and contact law of one type of grains; any of it may be filled in later ("{friction}")."""
     return f"""
 neighbor {skin} bin
 neigh_modify delay 0
@@ -37,7 +38,7 @@ fix modulus all property/global youngsModulus peratomtype {modulus}
 fix ratio all property/global poissonsRatio peratomtype 0.3
 fix restitution all property/global coefficientRestitution peratomtypepair 1 {restitution}
 fix friction all property/global coefficientFriction peratomtypepair 1 {friction}
-pair_style gran model hertz tangential history
+pair_style gran model {law}
 pair_coeff * *
 """
 

@@ -10,31 +10,12 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
-from scenes import QUICK_STARTS_AND_ENDS  # noqa: E402
+import scenes  # noqa: E402
 
 SPLIT = 0.7e-3  # m; coarse grains of 1.0 mm, fines of 0.4 mm
 
-HEADER = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-boundary p p p
-newton off
-"""
-
-MATERIAL = """
-neighbor 2e-4 bin
-neigh_modify delay 0
-fix modulus all property/global youngsModulus peratomtype 1e7
-fix ratio all property/global poissonsRatio peratomtype 0.3
-fix restitution all property/global coefficientRestitution peratomtypepair 1 0.7
-fix friction all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
-fix motion all nve/sphere
-timestep 2e-6
-"""
+HEADER = scenes.HEADER.format(boundary="p p p")
+MATERIAL = scenes.material(2e-4, "1e7", friction=0.3) + "fix motion all nve/sphere\ntimestep 2e-6\n"
 
 # A cube of so many metres with grains of both sizes, not touching each other.
 FILL = HEADER + """
@@ -81,7 +62,7 @@ class Suffuse:
         (self.folder / f"in.{name}").write_text(script)
         launcher = [self.options.mpirun, str(ranks)] if ranks > 1 else []
         done = subprocess.run(launcher + [self.options.suffuse, "-in", f"in.{name}", "-log", f"log.{name}"],
-                              cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240, env=os.environ | QUICK_STARTS_AND_ENDS)
+                              cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=240, env=os.environ | scenes.QUICK_STARTS_AND_ENDS)
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
     def must_run(self, ranks, script, name):

@@ -10,25 +10,13 @@ import subprocess
 import tempfile
 
 from contact_scene import Suffuse, check, close, read_dump
+from scenes import HEADER, material
 
-SCENE = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-newton off
-boundary f f f
+SCENE = HEADER.format(boundary="f f f") + """
 region box block -2e-3 4e-3 -2e-3 2e-3 -2e-3 2e-3 units box
 create_box 1 box
-neighbor 1e-3 bin
-neigh_modify delay 0
-fix y all property/global youngsModulus peratomtype 5e6
-fix nu all property/global poissonsRatio peratomtype 0.3
-fix e all property/global coefficientRestitution peratomtypepair 1 0.5
-fix mu all property/global coefficientFriction peratomtypepair 1 0.5
 fix ced all property/global cohesionEnergyDensity peratomtypepair 1 5e4
-pair_style gran model hertz {law}
-pair_coeff * *
+""" + material(1e-3, "5e6", 0.5, 0.5, law="hertz {law}") + """
 create_atoms 1 single 0 0 0
 create_atoms 1 single 0.98e-3 0 0
 set type 1 diameter 1e-3 density 2650

@@ -10,25 +10,13 @@ import math
 import tempfile
 
 from contact_scene import Suffuse, check, close
+from scenes import HEADER, material
 
 # 5 x 5 x 5 equal grains, 0.98 mm apart, between plates 4.9 mm apart: overlaps of 20 um between grains and 10 um with the plates.
-PLATES = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-newton off
-boundary {bc} {bc} {bc}
+PLATES = HEADER.format(boundary="{bc} {bc} {bc}") + """
 region box block -1e-3 5.9e-3 -1e-3 5.9e-3 -1e-3 5.9e-3 units box
 create_box 1 box
-neighbor 1e-4 bin
-neigh_modify delay 0
-fix y all property/global youngsModulus peratomtype 5e6
-fix nu all property/global poissonsRatio peratomtype 0.3
-fix e all property/global coefficientRestitution peratomtypepair 1 0.5
-fix mu all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history
-pair_coeff * *
+""" + material(1e-4, "5e6", 0.5, 0.5) + """
 lattice sc 0.98e-3 origin 0.5 0.5 0.5
 region cube block 0 4.9e-3 0 4.9e-3 0 4.9e-3 units box
 region ball sphere 2.45e-3 2.45e-3 2.45e-3 4.25e-3 units box
@@ -143,23 +131,10 @@ def analysed(suffuse, boundary, by_hand):
     check(code == 1 and "one of --volume" in err, err)
 
 
-STACK = """
-units si
-atom_style granular
-atom_modify map array
-communicate single vel yes
-newton off
-boundary p p f
+STACK = HEADER.format(boundary="p p f") + """
 region box block 0 1.2e-3 0 1.2e-3 -0.5e-3 6e-3 units box
 create_box 1 box
-neighbor 2e-4 bin
-neigh_modify delay 0
-fix y all property/global youngsModulus peratomtype 5e6
-fix nu all property/global poissonsRatio peratomtype 0.3
-fix e all property/global coefficientRestitution peratomtypepair 1 0.1
-fix mu all property/global coefficientFriction peratomtypepair 1 0.5
-pair_style gran model hertz tangential history
-pair_coeff * *
+""" + material(2e-4, "5e6", 0.1, 0.5) + """
 create_atoms 1 single 0.6e-3 0.6e-3 0.5e-3
 create_atoms 1 single 0.6e-3 0.6e-3 1.5e-3
 create_atoms 1 single 0.6e-3 0.6e-3 2.5e-3

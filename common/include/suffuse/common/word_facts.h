@@ -21,6 +21,7 @@ struct NumberRange {
 };
 
 inline constexpr NumberRange kPositive{0, true};
+inline constexpr NumberRange kNotNegative{0, false};
 constexpr NumberRange positive_up_to(double most) {
   return {0, true, most};
 }
@@ -47,5 +48,13 @@ struct WordFacts {
   std::string meaning;   ///< one line
   bool kept = false;     ///< must be the same where a saved state is taken up
 };
+
+WordFacts facts_of(const NumberWord& word, const std::string& standard);
+
+/// What a program's `--words` prints, tab-separated, for scripts/reference_tables: titles, and a row a word.
+/// `line` is where the word stands, `place` whether that is anywhere in it ("any"), first, or the line itself
+/// ("line": its form and meaning).
+inline constexpr const char* kWordTitles = "line\tplace\tword\tvalue\tunit\trange\tdefault\tkept\tmeaning\n";
+std::string word_row(const std::string& line, const char* place, const WordFacts& word);
 
 }  // namespace suffuse

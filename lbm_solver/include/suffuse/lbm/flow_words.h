@@ -27,6 +27,33 @@ inline constexpr NumberWord kEveryWord{"every", "T", "s", kPositive, "between tw
 inline constexpr const char* kPrecisionMeaning = "of the stored populations; `float` halves the memory";
 inline constexpr const char* kIncompressibleMeaning = "He and Luo's equilibrium";
 
+/// Words of the file of `suffuse-flow` alone.
+inline constexpr NumberWord kPressureDifferenceWord{
+    "pressure_difference", "P", "Pa", {}, "expected over the box: for the density difference"};
+inline constexpr NumberWord kSmagorinskyWord{"smagorinsky", "C", "", kNotNegative,
+                                             "0.1 to 0.2 for under-resolved flow; 0: none"};
+inline constexpr NumberWord kFrequencyWord{"frequency", "F", "Hz", kNotNegative,
+                                           "both times cos(2 pi F t); 0: constant"};
+inline constexpr NumberWord kRampWord{"ramp", "T", "s", kNotNegative,
+                                      "over which the value is reached from 0, linearly"};
+inline constexpr NumberWord kTimeWord{"time", "T", "s", kPositive,
+                                      "to run, from the start or from the state that was read"};
+inline constexpr NumberWord kUntilSteadyWord{"until_steady", "SHARE", "", kPositive,
+                                             "below 1: end early where the mean velocity changes by less "
+                                             "than this share of itself in a tenth of the run"};
+
+/// A table of that file and its keys. What the program reads and refuses, and the tables of
+/// docs/lbm/suffuse-flow.md (by `suffuse-flow --words`), come from these alone.
+struct FlowTable {
+  std::string name;  ///< "boundary.FACE" for the table that a face may have
+  std::string meaning;
+  std::vector<WordFacts> words;
+};
+const std::vector<FlowTable>& flow_tables();
+
+/// What `suffuse-flow --words` prints.
+std::string flow_words_text();
+
 std::vector<std::pair<std::string, Precision>> precision_words();
 std::vector<std::pair<std::string, FaceKind>> face_kind_words();
 

@@ -14,6 +14,17 @@ enum class Verdict { stable, transitional, unstable, not_applicable };
 const char* to_string(Verdict verdict);
 
 /// What one criterion says of a soil.
+/// What a criterion looks at; those that look at the same thing have one vote in a report.
+enum class CriterionGroup {
+  sizes_of_parts,  ///< of the coarse and the fine part of the grading
+  shape_of_curve,
+  one_number,   ///< gap, fines or uniformity
+  size_ratios,  ///< of coarse and fine sizes
+  constrictions,
+  predicted,  ///< Z and alpha by eqs 4.7 and 4.8
+  measured    ///< Z and alpha of a sample
+};
+
 struct CriterionResult {
   std::string criterion;  ///< "Kenney and Lau"
   std::string measure;    ///< "(H/F)min"
@@ -22,6 +33,7 @@ struct CriterionResult {
   Verdict verdict = Verdict::not_applicable;
   std::string source;  ///< key of docs/references.bib
   std::string note;    ///< where it was read, what the thesis prints otherwise; may be empty
+  CriterionGroup group = CriterionGroup::measured;
 };
 
 /// Limits of the criteria on the grading, with the thesis's values (chapter 2; where it misprints one, the
