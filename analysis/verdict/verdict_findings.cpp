@@ -83,8 +83,8 @@ std::vector<CriterionResult> boundary_on(const Record& record, const Constrictio
         "haq",
         ""};
   };
-  return {result("Chapter 4, worded \"or\"", "or", BoundaryWording::either),
-          result("Chapter 4, worded \"simultaneously\"", "and", BoundaryWording::both)};
+  return {result("Z or alpha low", "or", BoundaryWording::either),
+          result("Z and alpha low", "and", BoundaryWording::both)};
 }
 
 std::vector<HydraulicInput::Alpha> alphas(const VerdictInput& input, const VerdictFindings& findings) {
@@ -97,7 +97,7 @@ std::vector<HydraulicInput::Alpha> alphas(const VerdictInput& input, const Verdi
       all.push_back({*point, "the sample, contact point"});
   }
   if (all.empty() && findings.analysis)
-    all.push_back({findings.analysis->stress_reduction, "predicted, eq 4.8"});
+    all.push_back({findings.analysis->stress_reduction, "predicted by a fit"});
   return all;
 }
 
@@ -242,9 +242,8 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
   const MicroscaleLimits at{limits.coordination, limits.stress_reduction};
   if (findings.measured[0].verdict != findings.measured[1].verdict)
     sentences.push_back(
-        fmt::format("The thesis words its chapter 4 boundary in two ways, and here they differ: with \"or\" "
-                    "the sample is {}, "
-                    "with \"simultaneously\" {}.",
+        fmt::format("The thesis words its boundary of Z and alpha in two ways, and here they differ: where either "
+                    "low number makes it unstable the sample is {}, where it takes both {}.",
                     to_string(findings.measured[0].verdict), to_string(findings.measured[1].verdict)));
   if ((*halves <= at.stress_reduction) != (*point <= at.stress_reduction))
     sentences.push_back(fmt::format(
@@ -256,7 +255,7 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
         findings.analysis->coordination, findings.analysis->stress_reduction, BoundaryWording::either, at);
     if (predicted != findings.measured[0].verdict)
       sentences.push_back(fmt::format(
-          "Eqs 4.7 and 4.8 predict Z = {:.3g} and alpha = {:.3g}, {}; the sample has {:.3g} and {:.3g}, {}. "
+          "The fits to the constriction sizes predict Z = {:.3g} and alpha = {:.3g}, {}; the sample has {:.3g} and {:.3g}, {}. "
           "The measured numbers count.",
           findings.analysis->coordination, findings.analysis->stress_reduction, to_string(predicted), *z,
           *halves, to_string(findings.measured[0].verdict)));
@@ -397,7 +396,7 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
     const Verdict measured = findings.measured[0].verdict;
     if (lean && *lean != measured)
       sentences.push_back(
-          fmt::format("The sample is {} by Z and alpha (worded \"or\"), most criteria on {} say {}.",
+          fmt::format("The sample is {} by Z and alpha (either is low), most criteria on {} say {}.",
                       to_string(measured), by_pores ? "constrictions" : "grain sizes", to_string(*lean)));
     add_sample_sentences(input, findings, sentences);
   }
