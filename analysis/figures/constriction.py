@@ -49,7 +49,7 @@ def draw_distribution(series, grading, options):
     if grading:
         axes.plot([factor * size for size in grading["diameter_m"]], grading["percent_finer"], color="black", label="grains, by mass")
     axes.axhline(35, **style.REFERENCE)
-    axes.annotate("35 %", xy=(1, 35), xycoords=("axes fraction", "data"), xytext=(-2, 2), textcoords="offset points", fontsize=8, ha="right",
+    axes.annotate("35 % ($D_{c35}$)", xy=(1, 35), xycoords=("axes fraction", "data"), xytext=(-2, 2), textcoords="offset points", fontsize=8, ha="right",
                   color=style.REFERENCE["color"])
     axes.set(xscale="log", xlabel=f"constriction or grain diameter ({unit})", ylabel="finer (%)", ylim=(0, 100))
     style.plain_log_ticks(axes.xaxis)
@@ -64,7 +64,7 @@ def draw_prediction(predictions, names, measured, options):
 
     figure, axes = pyplot.subplots(figsize=(style.width_of(options), 3.6))
     for series, name in zip(predictions, names):
-        line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{style.plain(name)}, eqs 4.7, 4.8")
+        line, = axes.plot(series["coordination_number"], series["stress_reduction"], marker=".", markersize=3, label=f"{style.plain(name)}, predicted")
         ends = [(series["coordination_number"][i], series["stress_reduction"][i]) for i in (0, -1)]
         if max(abs(a - b) for a, b in zip(*ends)) < 0.3:  # no room for a name at either end
             continue

@@ -21,6 +21,20 @@ def of_step(series, step, column):
     return [x for x, _ in points], [y for _, y in points]
 
 
+def beyond(series, step, column):
+    """Share of the forces that are larger than the last bin's: what the densities lack of one."""
+    held = sum((high - low) * density for at, low, high, density in zip(series["step"], series["force_over_mean_low"], series["force_over_mean_high"],
+                                                                      series[column]) if at == step)
+    return 1 - held if held > 0 else 0.0
+
+
+def tangential_over_normal(series, step):
+    at = series["step"].index(step)
+    if "mean_tangential_force_n" not in series or not series["mean_normal_force_n"][at] > 0:
+        return None
+    return series["mean_tangential_force_n"][at] / series["mean_normal_force_n"][at]
+
+
 def draw(series, steps, options):
     import suffuse_style as style
     from matplotlib import pyplot
@@ -30,6 +44,12 @@ def draw(series, steps, options):
     for which, step in enumerate(steps):
         for kind, (column, name, line) in enumerate(KINDS):
             label = name if len(steps) == 1 else f"{name}, step {step:g}"
+            share = tangential_over_normal(series, step)
+            if column == "density_tangential" and share is not None and share < style.NOISE:
+                axes.plot([], [], linestyle="", label=f"no {label}: their mean is {share:.1g} $f_0$,\nno friction is at work")
+                continue
+            if beyond(series, step, column) > 0.002:
+                label += f"\n({100 * beyond(series, step, column):.2g} % are larger)"
             colour = colours[kind] if len(steps) == 1 else colours[which % len(colours)]
             axes.plot(*of_step(series, step, column), color=colour, linestyle=line, label=label)
     axes.axvline(1, **style.REFERENCE)

@@ -12,8 +12,6 @@ from time_series import TimeSeries
 
 ROSES = [("contact_density", "_per_rad", "contacts, E (1/rad)"), ("normal_force_density", "_per_rad", "normal forces (1/rad)"),
          ("mean_tangential_force", "_over_f0", "mean tangential force / $f_0$ (−)")]
-# Of the mean normal force f_0. Below it no friction is at work: what a sample without friction has are rounding and damping.
-NOISE = 1e-4
 
 
 def fine_fit(series, name, unit):
@@ -48,7 +46,7 @@ def draw_rose(path, plane, options):
         panel.set_xticks([k * math.pi / 4 for k in range(8)])
         panel.set_xticklabels([plane[0], "45°", plane[1], "135°", "180°", "", "270°", ""])
         largest = max(abs(v) for v in values)
-        if unit == "_over_f0" and largest < NOISE:
+        if unit == "_over_f0" and largest < style.NOISE:
             panel.set_yticks([])
             panel.annotate(f"none: at most {largest:.1g} $f_0$,\nno friction is at work", xy=(0.5, 0.5), xycoords="axes fraction", ha="center", va="center", fontsize=8)
             continue

@@ -58,9 +58,14 @@ def reference_line(axes, value, label):
                   ha="right", va="bottom", fontsize=8, color=REFERENCE["color"])
 
 
+# Tangential forces over the mean normal force f_0, below which no friction is at work: what a sample without friction has are
+# rounding and damping.
+NOISE = 5e-4
+
+
 def length_unit(*sizes_m):
-    """Factor and name of the unit in which an axis of these sizes is read: mm where the largest is that of gravel (2 mm or more), else µm."""
-    return (1e3, "mm") if max(sizes_m) >= 2e-3 else (1e6, "µm")
+    """Factor and name of the unit in which an axis of these sizes is read: mm where the largest has 1 mm or more, as sieves are named, else µm."""
+    return (1e3, "mm") if max(sizes_m) >= 1e-3 else (1e6, "µm")
 
 
 def plain_log_ticks(axis):

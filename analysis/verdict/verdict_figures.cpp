@@ -163,9 +163,9 @@ std::vector<VerdictFigure> draw_verdict_figures(const VerdictInput& input, const
   if (findings.analysis || measured) {
     Drawing boundaries{
         {VerdictFigure::Of::boundaries, "z_alpha", "",
-         "Coordination number against stress reduction factor, with the boundaries of chapter 4",
-         "Z and alpha, and the boundaries of chapter 4. Grey: unstable by the wording \"or\"; dark grey: by "
-         "both wordings.",
+         "Coordination number against stress reduction factor, with the limits of both",
+         "Z and alpha, and their limits. Grey: one of the two is low; dark grey: both are. The line is "
+         "predicted from the constriction sizes, from the loosest to the densest state.",
          ""},
         "constriction.py",
         {}};

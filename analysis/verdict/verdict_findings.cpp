@@ -62,8 +62,8 @@ std::vector<CriterionResult> boundary_on(const Record& record, const Constrictio
         "haq",
         ""};
   };
-  return {result("Chapter 4, worded \"or\"", "or", BoundaryWording::either),
-          result("Chapter 4, worded \"simultaneously\"", "and", BoundaryWording::both)};
+  return {result("Z or alpha low", "or", BoundaryWording::either),
+          result("Z and alpha low", "and", BoundaryWording::both)};
 }
 
 std::vector<HydraulicInput::Alpha> alphas(const VerdictInput& input, const VerdictFindings& findings) {
@@ -76,7 +76,7 @@ std::vector<HydraulicInput::Alpha> alphas(const VerdictInput& input, const Verdi
       all.push_back({*point, "the sample, contact point"});
   }
   if (all.empty() && findings.analysis)
-    all.push_back({findings.analysis->stress_reduction, "predicted, eq 4.8"});
+    all.push_back({findings.analysis->stress_reduction, "predicted by a fit"});
   return all;
 }
 

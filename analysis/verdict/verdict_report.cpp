@@ -72,6 +72,8 @@ void add_basis(ReportDocument& report, const VerdictInput& input, const VerdictF
           : "Relative density: not given; constrictions are those of the loosest state, the largest.");
   items.push_back(input.porosity ? fmt::format("Porosity: {:.4g}, {}.", *input.porosity, input.porosity_from)
                                  : "Porosity: not given; no gradients, no conductivity.");
+  items.emplace_back(
+      "What is called the thesis's is of S. Haq's thesis (key `haq`), with its chapters and equations.");
   report.list(std::move(items));
 }
 
@@ -108,24 +110,24 @@ void add_constrictions(ReportDocument& report, const VerdictInput& input, const 
   }
   const ConstrictionAnalysis& analysis = *findings.analysis;
   const double density = input.relative_density.value_or(0);
-  const bool gravel = analysis.sizes.at(1, density) >= 1e-3;
-  const double factor = gravel ? 1e3 : 1e6;
+  const bool in_mm = input.grading.largest() >= 1e-3;  // as the figure's axis
+  const double factor = in_mm ? 1e3 : 1e6;
   const auto at = [&](double share) { return factor * analysis.sizes.at(share, density); };
   report.paragraph(fmt::format(
       "The coarse fraction is the filter, the fine one the base that it must hold; split at {:.3g} % ({}). "
       "A constriction is the narrowest passage between neighbouring grains. Those of the coarse fraction, "
       "{}: smallest {:.4g}, Dc35 (35 % are narrower) {:.4g}, Dc50 {:.4g}, largest {:.4g}. d85 of the fine "
       "fraction {:.4g} {}.",
-      100 * analysis.split.finer, analysis.split.rule, gravel ? "mm" : "um", at(0), at(0.35), at(0.5), at(1),
-      factor * analysis.largest_erodible, gravel ? "mm" : "um"));
+      100 * analysis.split.finer, analysis.split.rule, in_mm ? "mm" : "um", at(0), at(0.35), at(0.5), at(1),
+      factor * analysis.largest_erodible, in_mm ? "mm" : "um"));
   add_criteria(report, findings.constriction);
 }
 
-/// Chapter 4 in both wordings, on all pairs of Z and alpha that there are.
+/// Chapter 4's boundary in both wordings, on all pairs of Z and alpha that there are.
 void add_boundaries(ReportDocument& report, const VerdictInput& input, const VerdictFindings& findings) {
   const MicroscaleLimits limits{input.constriction_limits.coordination,
                                 input.constriction_limits.stress_reduction};
-  ReportTable table{{"Z and alpha", "Z", "alpha", "\"or\"", "\"simultaneously\""}, {}};
+  ReportTable table{{"Z and alpha", "Z", "alpha", "unstable if either is low", "if both are"}, {}};
   const auto add = [&](const char* origin, double z, double alpha) {
     table.rows.push_back({origin, number(z), number(alpha),
                           to_string(microscale_verdict(z, alpha, BoundaryWording::either, limits)),
@@ -134,19 +136,21 @@ void add_boundaries(ReportDocument& report, const VerdictInput& input, const Ver
   if (findings.sample) {
     const auto z = value_of(findings.sample->record, "coordination_number");
     if (const auto alpha = value_of(findings.sample->record, "alpha_pair_halves"); z && alpha)
-      add("measured, pair halves (the thesis's)", *z, *alpha);
+      add("measured, by pair halves (the thesis's)", *z, *alpha);
     if (const auto alpha = value_of(findings.sample->record, "alpha_contact_point"); z && alpha)
-      add("measured, contact point (eq 4.2)", *z, *alpha);
+      add("measured, by contact point", *z, *alpha);
   }
   if (findings.analysis)
-    add("predicted by eqs 4.7, 4.8", findings.analysis->coordination, findings.analysis->stress_reduction);
+    add("predicted from the constriction sizes (fits)", findings.analysis->coordination,
+        findings.analysis->stress_reduction);
   if (table.rows.empty()) return;
-  report.heading("Chapter 4: Z and alpha");
+  report.heading("Contacts and stress of the fines: Z and alpha");
   report.paragraph(fmt::format(
       "Z is the mean number of contacts of a grain, alpha the mean stress in the fine grains over that of "
-      "the whole sample: with few contacts and little stress the fines lie loose in the pores. Unstable if Z "
-      "<= {0:g} or alpha <= {1:g} (sections 4.4.1, 4.5, 5.3.6); elsewhere the thesis "
-      "says \"simultaneously\" (1.3) or \"and\" (7.2.1). Both:",
+      "the whole sample: with few contacts and little stress the fines lie loose in the pores. They are low "
+      "at Z <= {0:g} and at alpha <= {1:g}. The thesis calls a soil unstable if either is low where it draws "
+      "this boundary (sections 4.4.1, 4.5, 5.3.6), and if both are in its summaries (1.3, 7.2.1). By either "
+      "reading:",
       limits.coordination, limits.stress_reduction));
   report.table(std::move(table));
 }
@@ -181,8 +185,9 @@ void add_fabric(ReportDocument& report, const VerdictInput& input, const Verdict
     items.emplace_back(
         "Shire's zones of the fines content (25 and 35 %) are for gap-graded soils; this one has no gap.");
   }
-  if (!findings.sample) items.emplace_back("The fabric case of chapter 5 needs a sample.");
-  report.heading("Chapter 5: fabric and fines");
+  if (!findings.sample)
+    items.emplace_back("The fabric case (I to IV, chapter 5 of the thesis) needs a sample.");
+  report.heading("Fabric and fines content");
   report.list(std::move(items));
 }
 
@@ -194,8 +199,10 @@ void add_constraints(ReportDocument& report, const VerdictFindings& findings) {
         std::pair{"constraint_ratio_mechanical", "R, with Z_mech"}})
     if (const auto value = value_of(findings.sample->record, name))
       table.rows.push_back({title, number(*value), to_string(hydromechanical_state(*value))});
-  report.heading("Chapter 6: constraint ratio");
-  report.paragraph("Stable above 1, transitional at 1, fluid-like below.");
+  report.heading("Constraint ratio");
+  report.paragraph(
+      "Constraints that the contacts set over the grains' degrees of freedom, a sliding contact counting "
+      "less: stable above 1, transitional at 1, fluid-like below.");
   report.table(std::move(table));
 }
 

@@ -87,11 +87,10 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
   const ConstrictionLimits& limits = input.constriction_limits;
   const MicroscaleLimits at{limits.coordination, limits.stress_reduction};
   if (findings.measured[0].verdict != findings.measured[1].verdict)
-    sentences.push_back(
-        fmt::format("The thesis words its chapter 4 boundary in two ways, and here they differ: with \"or\" "
-                    "the sample is {}, "
-                    "with \"simultaneously\" {}.",
-                    to_string(findings.measured[0].verdict), to_string(findings.measured[1].verdict)));
+    sentences.push_back(fmt::format(
+        "The thesis words its boundary of Z and alpha in two ways, and here they differ: where either "
+        "low number makes it unstable the sample is {}, where it takes both {}.",
+        to_string(findings.measured[0].verdict), to_string(findings.measured[1].verdict)));
   if ((*halves <= at.stress_reduction) != (*point <= at.stress_reduction))
     sentences.push_back(fmt::format(
         "The two definitions of alpha fall on different sides of {:g}: {:.3g} by pair halves, with "
@@ -101,11 +100,12 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
     const Verdict predicted = microscale_verdict(
         findings.analysis->coordination, findings.analysis->stress_reduction, BoundaryWording::either, at);
     if (predicted != findings.measured[0].verdict)
-      sentences.push_back(fmt::format(
-          "Eqs 4.7 and 4.8 predict Z = {:.3g} and alpha = {:.3g}, {}; the sample has {:.3g} and {:.3g}, {}. "
-          "The measured numbers count.",
-          findings.analysis->coordination, findings.analysis->stress_reduction, to_string(predicted), *z,
-          *halves, to_string(findings.measured[0].verdict)));
+      sentences.push_back(
+          fmt::format("The fits to the constriction sizes predict Z = {:.3g} and alpha = {:.3g}, {}; the "
+                      "sample has {:.3g} and {:.3g}, {}. "
+                      "The measured numbers count.",
+                      findings.analysis->coordination, findings.analysis->stress_reduction,
+                      to_string(predicted), *z, *halves, to_string(findings.measured[0].verdict)));
   }
   const auto fines = value_of(record, "fines_solid_share");
   if (!fines || !input.grading.gap()) return;
@@ -213,7 +213,7 @@ std::vector<std::string> disagreement_sentences(const VerdictInput& input, const
     const Verdict measured = findings.measured[0].verdict;
     if (lean && *lean != measured)
       sentences.push_back(
-          fmt::format("The sample is {} by Z and alpha (worded \"or\"), most criteria on {} say {}.",
+          fmt::format("The sample is {} by Z and alpha (either is low), most criteria on {} say {}.",
                       to_string(measured), by_pores ? "constrictions" : "grain sizes", to_string(*lean)));
     add_sample_sentences(input, findings, sentences);
   }

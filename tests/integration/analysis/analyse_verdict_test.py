@@ -56,7 +56,7 @@ def check_words(program, gradings):
     divided = program.must_run(gradings / "appendix_A.csv", "--relative-density", 0.5, "--porosity", 0.25, "--top-stress", 1e4, "--thickness", 0.1)
     must_say(divided, "Internally stable: the pores' controlling constriction over the larger fine grains (Dc35/d85) is 0.491; unstable from 0.73",
              "Divided on shape of the curve: stable by Kenney and Lau", "unstable by Lubochkov. Why:", "unstable by Kovacs. Why:",
-             "Agreed on unstable: ratios of coarse and fine sizes", "transitional by Liu", "alpha = 1.279 (predicted, eq 4.8), taken as 1",
+             "Agreed on unstable: ratios of coarse and fine sizes", "transitional by Liu", "alpha = 1.279 (predicted by a fit), taken as 1",
              f"| critical gradient, Terzaghi | {1.65 * 0.75:.4g} |", "Li and Fannin")
     strict = program.must_run(gradings / "appendix_A.csv", "--limit", "chapter_4=0.4", "--limit", "kezdi=2", "--relative-density", 0.5)
     must_say(strict, "Internally unstable: the pores' controlling constriction over the larger fine grains (Dc35/d85) is 0.491", "| Kezdi | unstable |")
@@ -110,17 +110,17 @@ def check_sample(program, gradings):
     write_sample(program.folder, 7)
     report = program.must_run(grading, *sample)
     must_say(report, "Internally unstable, measured on the sample: 0.75 contacts a grain (Z), fines under 0 of the mean stress (alpha). The limits are 1 and 0.5.",
-             "| measured, pair halves (the thesis's) | 0.75 | 0 | unstable | unstable |", "| measured, contact point (eq 4.2) | 0.75 | 0 | unstable | unstable |",
+             "| measured, by pair halves (the thesis's) | 0.75 | 0 | unstable | unstable |", "| measured, by contact point | 0.75 | 0 | unstable | unstable |",
              "Fabric case I, alpha by pair halves: Z_fc = 0, alpha = 0: fines lie loose", "| R | 0.1875 | fluid-like |",
              "| critical gradient of the fines, Skempton and Brogan | 0 |", "alpha = 0 (the sample, pair halves)", "| sliding contacts, share | 0 |")
     # One: Z = 6/2 is above its limit, alpha is not; the two wordings part.
     write_sample(program.folder, 1)
     report = program.must_run(grading, *sample)
     must_say(report, "Between stable and unstable, measured on the sample: 3 contacts a grain (Z), fines under 0 of the mean stress (alpha)",
-             "with \"or\" the sample is unstable, with \"simultaneously\" stable", "| R | 0.75 | fluid-like |")
+             "where either low number makes it unstable the sample is unstable, where it takes both stable", "| R | 0.75 | fluid-like |")
     # A stable grading in this state: the criteria say one thing, the sample another.
     must_say(program.must_run(gradings / "appendix_A.csv", *sample), "The measured numbers count.",
-             "The sample is unstable by Z and alpha (worded \"or\"), most criteria on constrictions say stable")
+             "The sample is unstable by Z and alpha (either is low), most criteria on constrictions say stable")
     # Without a PSD: the sample's own grains.
     must_say(program.must_run(*sample), "Grading: the grains of the sample", "Relative density: not given")
 
