@@ -173,9 +173,10 @@ void ScriptVariables::require_no_two_for_one(const std::map<std::string, std::st
     const std::string others = found[2];
     for (std::sregex_iterator other(others.begin(), others.end(), word), end; other != end; ++other)
       if (const auto second = given.find(other->str()); second != given.end())
-        throw_user_error({who, second->first, second->second,
-                          fmt::format("not be given beside -var {} {}", first->first, first->second),
-                          fmt::format("{} takes the place of {}; drop one of the two", first->first, others)});
+        throw_user_error(
+            {who, second->first, second->second,
+             fmt::format("not be given beside -var {} {}", first->first, first->second),
+             fmt::format("{} takes the place of {}; drop one of the two", first->first, others)});
   }
 }
 

@@ -73,7 +73,7 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Liggght
   drive.from = "the faces' velocity";
   drive.pressure_range = drops.maxCoeff();
   double gradient = gradients.maxCoeff() / (units.density * 9.81);
-  drive.axis = largest_component(gradient > 0                ? gradients
+  drive.axis = largest_component(gradient > 0          ? gradients
                                  : at_faces.norm() > 0 ? at_faces
                                                        : settings.gravity.now(lmp));
   if (bed && grains_move && gravity > 0) {
@@ -172,8 +172,8 @@ DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const
   scene.bed_length = grains.extent[drive.axis];
   scene.free_surfaces = free_surfaces(port, grains, box, drive.axis);
   if (grains_move)
-    scene.falling = settings.gravity.now(lmp).norm() *
-                    std::abs(1 - settings.units.density / grains.smallest_density);
+    scene.falling =
+        settings.gravity.now(lmp).norm() * std::abs(1 - settings.units.density / grains.smallest_density);
   scene.not_averaged = not_averaged(lmp, settings, box);
   return driven;
 }

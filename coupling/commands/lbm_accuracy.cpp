@@ -99,9 +99,12 @@ std::string percent(double share) {
 
 const char* name_of(AccuracyOf of) {
   switch (of) {
-    case AccuracyOf::critical_gradient: return "critical gradient";
-    case AccuracyOf::forces: return "forces on single grains";
-    default: return "permeability";
+    case AccuracyOf::critical_gradient:
+      return "critical gradient";
+    case AccuracyOf::forces:
+      return "forces on single grains";
+    default:
+      return "permeability";
   }
 }
 
@@ -143,10 +146,10 @@ std::string averaged_lines(const AccuracyChoice& choice, const AccuracyScene& sc
 std::string resolved_lines(const AccuracyChoice& choice, const AccuracyScene& scene,
                            const std::string& velocity_from) {
   const AccuracyErrors& errors = choice.errors;
-  std::string text = fmt::format(
-      "lbm accuracy: cells      {:.3g} a diameter ({:.4g} m): {}, worst packing tried {}\n",
-      choice.cells, scene.counted_diameter, percent(errors.resolution),
-      percent(largest_permeability_error(choice.cells, scene.solid_fraction)));
+  std::string text =
+      fmt::format("lbm accuracy: cells      {:.3g} a diameter ({:.4g} m): {}, worst packing tried {}\n",
+                  choice.cells, scene.counted_diameter, percent(errors.resolution),
+                  percent(largest_permeability_error(choice.cells, scene.solid_fraction)));
   if (errors.forces > 0)
     text += fmt::format("lbm accuracy: forces     {} on single grains besides\n", percent(errors.forces));
   text += fmt::format(
@@ -191,7 +194,7 @@ std::string prices_text(std::vector<PricedChoice> choices, const AccuracyChoice&
     const std::string what = choice.averaged ? fmt::format("averaged, {:.3g} m a cell", choice.spacing)
                                              : fmt::format("{:.3g} cells a diameter", choice.cells);
     text += fmt::format("lbm accuracy: {:<11}{:<26}{:>7}{:>12.3g}{:>12.3g}{:>8.2g}\n",
-                        priced == place ? "this"
+                        priced == place  ? "this"
                         : priced < place ? "cheaper"
                                          : "dearer",
                         what, percent(choice.errors.together()), priced->water, priced->grains,
@@ -223,8 +226,8 @@ void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, Ligggh
   text += method_line(choice, wish, scene);
   text += choice.averaged ? averaged_lines(choice, scene) : resolved_lines(choice, scene, velocity_from);
   text += prices_text(choices, choice);
-  tell(lmp, text + "lbm accuracy: the same is `" +
-                lattice_lines(choice, scene, wish, request.region) + "`\n");
+  tell(lmp,
+       text + "lbm accuracy: the same is `" + lattice_lines(choice, scene, wish, request.region) + "`\n");
 }
 
 void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std::string& file) {
@@ -235,10 +238,10 @@ void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std
   const std::string who = "lbm accuracy";
   on_first_rank(who, communicator_of(lmp), [&] {
     SafeFile out(file, who);
-    out.write(fmt::format(
-        "variable lattice_spacing equal {}\nvariable lattice_timestep equal {}\n"
-        "variable lattice_sound equal {}\n",
-        spacing, step, sound));
+    out.write(
+        fmt::format("variable lattice_spacing equal {}\nvariable lattice_timestep equal {}\n"
+                    "variable lattice_sound equal {}\n",
+                    spacing, step, sound));
     out.commit();
   });
 }

@@ -33,8 +33,8 @@ std::string error_line(const CoupledSettings& settings, const AccuracyScene& sce
 }
 
 std::string scene_text(const CoupledSettings& settings, const lbm::Units& units, const lbm::Index3& cells,
-                       const LiggghtsPort::Summary& grains, const AccuracyScene& scene, double time, double steps,
-                       double bytes) {
+                       const LiggghtsPort::Summary& grains, const AccuracyScene& scene, double time,
+                       double steps, double bytes) {
   std::string text = fmt::format(
       "lbm plan: {:g} s are {:.0f} steps of {} x {} x {} cells, {} each; {:.3g} GB for the fluid\n", time,
       steps, cells[0], cells[1], cells[2], count_text(settings.substeps, "DEM step"), bytes * 1e-9);

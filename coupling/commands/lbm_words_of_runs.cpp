@@ -158,12 +158,11 @@ const Command<AccuracyRequest>& accuracy_command() {
   static const Command<AccuracyRequest> line = [] {
     Command<AccuracyRequest> accuracy{.name = "accuracy", .meaning = "chooses the lattice, in its place"};
     accuracy.only_before_run = true;
-    accuracy.first = {
-        {{"accuracy", "SHARE|none", "", "1.4% to 30%", "",
-          "error to be expected; `none`: `lbm lattice` stands as it was written"},
-         [](ArgumentReader& reader, LAMMPS_NS::LAMMPS*, AccuracyRequest& a) {
-           a.accuracy = read_share(reader);
-         }}};
+    accuracy.first = {{{"accuracy", "SHARE|none", "", "1.4% to 30%", "",
+                        "error to be expected; `none`: `lbm lattice` stands as it was written"},
+                       [](ArgumentReader& reader, LAMMPS_NS::LAMMPS*, AccuracyRequest& a) {
+                         a.accuracy = read_share(reader);
+                       }}};
     accuracy.words = {
         D::choice<AccuracyOf>(
             "of",

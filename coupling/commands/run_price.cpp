@@ -79,8 +79,8 @@ RunPrice price_of_run(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& request, Liggght
   price.cells = parts.cells();
   price.settings.substeps = substeps_for(request, port);
   const double step = lbm::Units(price.settings.units).time_step();
-  price.costs = trial_costs(price.settings, parts, low, port, step / price.settings.substeps,
-                            looks_of(request, step));
+  price.costs =
+      trial_costs(price.settings, parts, low, port, step / price.settings.substeps, looks_of(request, step));
   const PastRun past = port.past_run();
   price.grains_known = past.grain_steps > 0;
   const auto grains = static_cast<double>(port.summary().grains);

@@ -21,8 +21,8 @@ struct TrialCosts {
 TrialCosts trial_costs(const CoupledSettings& settings, const lbm::Decomposition& parts, const Vec3& low,
                        LiggghtsPort& port, double dem_step, double looks);
 
-/// What so many steps of LIGGGHTS's take, s: at the speed of its last run, or on usual cores, with the messages
-/// between them.
+/// What so many steps of LIGGGHTS's take, s: at the speed of its last run, or on usual cores, with the
+/// messages between them.
 double grain_seconds(int ranks, const PastRun& past, double steps, double grains);
 
 }  // namespace suffuse::coupling

@@ -86,9 +86,10 @@ double expected_mach(const AccuracyScene& scene, double spacing, double time_ste
 AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, double time_step,
                                lbm::CollisionOperator collision) {
   AccuracyErrors errors;
-  if (scene.counted_diameter > 0) 
-    errors.resolution = expected_permeability_error(
-        scene.counted_diameter / spacing, scene.solid_fraction > 0 ? scene.solid_fraction : kUsualSolidFraction);
+  if (scene.counted_diameter > 0)
+    errors.resolution =
+        expected_permeability_error(scene.counted_diameter / spacing,
+                                    scene.solid_fraction > 0 ? scene.solid_fraction : kUsualSolidFraction);
   errors.compressibility = squared(expected_mach(scene, spacing, time_step));
   errors.density = 1.5 * scene.pressure_range / scene.density * squared(time_step / spacing);
   const bool comoving = collision == lbm::CollisionOperator::trt_comoving;

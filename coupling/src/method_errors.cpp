@@ -9,8 +9,8 @@ namespace suffuse::coupling {
 
 namespace {
 
-constexpr MeasuredError kForces[] = {{2, 0.14, 0.215},   {3, 0.073, 0.133},  {4, 0.041, 0.06},
-                                     {5, 0.029, 0.045},  {8, 0.0106, 0.017}, {10, 0.0085, 0.011}};
+constexpr MeasuredError kForces[] = {{2, 0.14, 0.215},  {3, 0.073, 0.133},  {4, 0.041, 0.06},
+                                     {5, 0.029, 0.045}, {8, 0.0106, 0.017}, {10, 0.0085, 0.011}};
 
 /// Of a pore's resistance to flow, without its viscosity and grains' size.
 double resistance(double solid_fraction) {
@@ -35,9 +35,12 @@ double expected_force_error(double cells_per_sauter_diameter) {
 AveragedErrors averaged_errors(DragLaw law) {
   constexpr double gradient = 0.024, forces = 0.34;
   switch (law) {
-    case DragLaw::gidaspow: return {0.2, gradient, forces};
-    case DragLaw::di_felice: return {0.47, gradient, forces};
-    default: return {0.1, gradient, forces};
+    case DragLaw::gidaspow:
+      return {0.2, gradient, forces};
+    case DragLaw::di_felice:
+      return {0.47, gradient, forces};
+    default:
+      return {0.1, gradient, forces};
   }
 }
 

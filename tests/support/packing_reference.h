@@ -7,8 +7,8 @@
 
 namespace suffuse::testing {
 
-/// K of a packing in tests/data/packing_drags.csv, or of a bed of 300 spheres in bed_drags.csv (this lattice at
-/// twelve cells a Sauter diameter).
+/// K of a packing in tests/data/packing_drags.csv, or of a bed of 300 spheres in bed_drags.csv (this lattice
+/// at twelve cells a Sauter diameter).
 inline double reference_drag(const std::string& packing) {
   for (const char* table : {"/packing_drags.csv", "/bed_drags.csv"}) {
     std::ifstream file(SUFFUSE_TEST_DATA + std::string(table));

@@ -78,8 +78,9 @@ TEST_CASE("The accuracy asked for is met by small packings that nothing was fitt
   CHECK(error_at(name, packing, choice.spacing) < accuracy);
 }
 
-TEST_CASE("The accuracy asked for is met by beds that nothing was fitted to, at twice the least price at most",
-          "[.long]") {
+TEST_CASE(
+    "The accuracy asked for is met by beds that nothing was fitted to, at twice the least price at most",
+    "[.long]") {
   const std::string name = GENERATE("random:0.48:300:61", "random:0.6:300:62", "spread:0.57:300:63:0.4");
   const AccuracyWish wish{GENERATE(0.1, 0.05, 0.03)};
   const Packing packing = make_packing(name);

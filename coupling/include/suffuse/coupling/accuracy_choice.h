@@ -11,21 +11,21 @@ namespace suffuse::coupling {
 /// What a scene is like, for settings of a wanted accuracy; SI.
 struct AccuracyScene {
   double counted_diameter = 0;  ///< counted_diameter() of the grains, m; 0 without grains
-  double velocity = 0;        ///< of the fastest water expected, m/s
-  double grain_speed = 0;     ///< of the fastest grains expected, m/s; 0 where none moves
-  double pressure_range = 0;  ///< largest difference of pressures in the water, Pa
-  double density = 1000;      ///< kg/m³
-  double viscosity = 1e-6;    ///< kinematic, m²/s
-  double response_time = 0;   ///< in which the smallest grain follows its water, s; 0 where none moves
-  Vec3 size = Vec3::Zero();   ///< of the fluid's box, m
+  double velocity = 0;          ///< of the fastest water expected, m/s
+  double grain_speed = 0;       ///< of the fastest grains expected, m/s; 0 where none moves
+  double pressure_range = 0;    ///< largest difference of pressures in the water, Pa
+  double density = 1000;        ///< kg/m³
+  double viscosity = 1e-6;      ///< kinematic, m²/s
+  double response_time = 0;     ///< in which the smallest grain follows its water, s; 0 where none moves
+  Vec3 size = Vec3::Zero();     ///< of the fluid's box, m
   // What the averaged flow goes by
-  double sauter_diameter = 0;      ///< m
-  double solid_fraction = 0;       ///< of the smallest box around the grains
-  double bed_length = 0;           ///< along the flow, m
-  int free_surfaces = 0;           ///< of the bed, with water beyond, across the flow
-  double falling = 0;              ///< acceleration of a free grain in the water, m/s^2; 0 where none moves
-  double smallest_diameter = 0;    ///< m
-  std::string not_averaged;        ///< what of the script the averaged flow has not; empty: nothing
+  double sauter_diameter = 0;    ///< m
+  double solid_fraction = 0;     ///< of the smallest box around the grains
+  double bed_length = 0;         ///< along the flow, m
+  int free_surfaces = 0;         ///< of the bed, with water beyond, across the flow
+  double falling = 0;            ///< acceleration of a free grain in the water, m/s^2; 0 where none moves
+  double smallest_diameter = 0;  ///< m
+  std::string not_averaged;      ///< what of the script the averaged flow has not; empty: nothing
 };
 
 /// What is asked for.
@@ -67,8 +67,8 @@ struct AccuracyChoice {
   lbm::CollisionOperator collision = lbm::CollisionOperator::trt;
   AccuracyErrors errors;
   const char* bound = "";  ///< what keeps the time step from being larger
-  /// Of the water of the resolved flow: cells times steps a second of the run's time, times what precision and
-  /// operator make of it. Ratios of it are ratios of time.
+  /// Of the water of the resolved flow: cells times steps a second of the run's time, times what precision
+  /// and operator make of it. Ratios of it are ratios of time.
   double cost = 0;
 };
 
@@ -79,7 +79,8 @@ struct AccuracyChoice {
 /// least cells a diameter that fit the box. Cells cost their fifth power, so the resolution takes what the
 /// time step's errors leave: those get a third of the accuracy, in squares a ninth.
 ///
-/// - cells a diameter: expected_permeability_error(), and expected_force_error() where forces are asked for; 2
+/// - cells a diameter: expected_permeability_error(), and expected_force_error() where forces are asked for;
+/// 2
 ///   to 8; a whole number of cells along each axis;
 /// - time step: the largest with Mach² and half of the density difference in that third, Mach below 0.2 (the
 ///   run stops at 0.3), and a relaxation time of at most 1 (above, velocities lag near walls);

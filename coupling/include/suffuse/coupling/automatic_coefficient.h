@@ -32,11 +32,11 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 
 /// Error of a packing's permeability (a share: 0.03 is 3 %) to be expected with `force`, the automatic
 /// coefficient and so many cells a Sauter diameter: root mean square of packings of 300 spheres, and the
-/// largest of those of 16 to 300 (docs/results/data/resolution_of_packings.csv; periodic boxes, solid fractions
-/// 0.4 to 0.62). Measured at 2 to 8 cells, powers of the resolution between; beyond 8 as at 8, where the references are
-/// hardly better; a guess below 2. Pores of denser packings are narrower: a solid fraction phi counts as
-/// sqrt(0.55/phi) times the cells, which leaves the least scatter between packings; 0.5 to 0.65, beyond as
-/// there (looser packings err less, lone spheres more).
+/// largest of those of 16 to 300 (docs/results/data/resolution_of_packings.csv; periodic boxes, solid
+/// fractions 0.4 to 0.62). Measured at 2 to 8 cells, powers of the resolution between; beyond 8 as at 8,
+/// where the references are hardly better; a guess below 2. Pores of denser packings are narrower: a solid
+/// fraction phi counts as sqrt(0.55/phi) times the cells, which leaves the least scatter between packings;
+/// 0.5 to 0.65, beyond as there (looser packings err less, lone spheres more).
 inline constexpr double kUsualSolidFraction = 0.55;
 double expected_permeability_error(double cells_per_sauter_diameter,
                                    double solid_fraction = kUsualSolidFraction);
