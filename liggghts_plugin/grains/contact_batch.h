@@ -23,7 +23,7 @@ struct alignas(64) ContactBatch {
   double force[3][kLanes], moment[3][kLanes], arm_first[kLanes], arm_second[kLanes], rolling[3][kLanes];
   // Whose contacts these are.
   int first[kLanes], second[kLanes], motion[kLanes], receiver[kLanes];
-  std::uint32_t spring_index[kLanes], pair[kLanes];
+  std::uint32_t pair[kLanes];
 };
 
 /// What a normal law gives for one contact.

@@ -28,7 +28,17 @@ constexpr int kBlock = 512;  // candidates that are searched at a time
   return load(first) - signs * load(second);
 }
 
-/// The places within a block of candidates that touch; returns how many.
+/// Of four candidates, by a bit for each that touches: how many do, and which, first of all.
+struct Touching {
+  int lanes[4], count;
+};
+constexpr Touching kTouching[16] = {
+    {{0, 0, 0, 0}, 0}, {{0, 0, 0, 0}, 1}, {{1, 0, 0, 0}, 1}, {{0, 1, 0, 0}, 2},
+    {{2, 0, 0, 0}, 1}, {{0, 2, 0, 0}, 2}, {{1, 2, 0, 0}, 2}, {{0, 1, 2, 0}, 3},
+    {{3, 0, 0, 0}, 1}, {{0, 3, 0, 0}, 2}, {{1, 3, 0, 0}, 2}, {{0, 1, 3, 0}, 3},
+    {{2, 3, 0, 0}, 2}, {{0, 2, 3, 0}, 3}, {{1, 2, 3, 0}, 3}, {{0, 1, 2, 3}, 4}};
+
+/// The places within a block of candidates that touch; returns how many. There is room for four beyond them.
 int touching_in(const CandidatePairs& pairs, const Quad* position, std::size_t start, int count,
                 int* places) {
   int found = 0, k = 0;
@@ -41,11 +51,9 @@ int touching_in(const CandidatePairs& pairs, const Quad* position, std::size_t s
     Four r = relative(position[first[k + 3]], position[second[k + 3]]);
     transpose(x, y, z, r);
     const FourFlags touch = x * x + y * y + z * z < r * r;
-    const int bits = bits_of(touch);
-    places[found] = k, found += bits & 1;
-    places[found] = k + 1, found += bits >> 1 & 1;
-    places[found] = k + 2, found += bits >> 2 & 1;
-    places[found] = k + 3, found += bits >> 3 & 1;
+    const Touching& those = kTouching[bits_of(touch)];
+    for (int n = 0; n < 4; ++n) places[found + n] = k + those.lanes[n];
+    found += those.count;
   }
   for (; k < count; ++k) {
     const Four d = relative(position[first[k]], position[second[k]]);
@@ -75,7 +83,7 @@ class Pass {
         const std::size_t k = start + static_cast<std::size_t>(places[f]);
         batch_.first[filled] = pairs.first[k], batch_.second[filled] = pairs.second[k];
         batch_.motion[filled] = pairs.motion[k], batch_.receiver[filled] = pairs.receiver[k];
-        batch_.spring_index[filled] = pairs.spring[k], batch_.pair[filled] = static_cast<std::uint32_t>(k);
+        batch_.pair[filled] = static_cast<std::uint32_t>(k);
         if (++filled == kLanes) {
           evaluate(kLanes);
           filled = 0;
@@ -138,7 +146,7 @@ class Pass {
     for (int c = contacts; c < kLanes; ++c) {
       batch_.first[c] = batch_.first[0], batch_.second[c] = batch_.second[0],
       batch_.motion[c] = batch_.motion[0];
-      batch_.spring_index[c] = batch_.spring_index[0];
+      batch_.pair[c] = batch_.pair[0];
     }
     gather();
     if (settings_.law.normal == NormalLaw::hooke) linear_stiffness();
@@ -179,7 +187,7 @@ class Pass {
   }
 
   void gather_springs(int c) {
-    const std::uint32_t* s = batch_.spring_index + c;
+    const std::uint32_t* s = batch_.pair + c;
     Four x = load(springs_[s[0]]), y = load(springs_[s[1]]), z = load(springs_[s[2]]),
          w = load(springs_[s[3]]);
     transpose(x, y, z, w);
@@ -249,7 +257,7 @@ class Pass {
                         Four{number, number, number, number}};
       transpose(spring[0], spring[1], spring[2], spring[3]);
       const int here = contacts - c < 4 ? contacts - c : 4;
-      for (int lane = 0; lane < here; ++lane) store(springs_[batch_.spring_index[c + lane]], spring[lane]);
+      for (int lane = 0; lane < here; ++lane) store(springs_[batch_.pair[c + lane]], spring[lane]);
     }
   }
 

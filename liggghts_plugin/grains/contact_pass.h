@@ -28,14 +28,13 @@ struct GrainArrays {
 
 /// Pairs that may touch until the next list. Pair k is first[k] at position[first[k]] with second[k] at
 /// position[second[k]]; the second one's motion is that of velocity[motion[k]] (a periodic image moves as its
-/// original does), and what acts on it is added to loads[receiver[k]].
+/// original does), and what acts on it is added to loads[receiver[k]]. Its spring is the k-th.
 struct CandidatePairs {
   std::size_t count;
   const int* first;
   const int* second;
   const int* motion;
   const int* receiver;
-  const std::uint32_t* spring;  ///< which of `springs` is the pair's
 };
 
 /// One evaluation of all contacts.

@@ -115,8 +115,7 @@ std::size_t reference_contact_pass(const CandidatePairs& candidates, const Grain
     contact.normal_force = c.k_n * overlap - c.gamma_n * contact.relative_velocity.dot(contact.normal);
     if (law.limit_force && contact.normal_force < 0) contact.normal_force = 0;
 
-    const Vec3 tangential =
-        tangential_force(settings, c, pair.friction, contact, springs[candidates.spring[k]]);
+    const Vec3 tangential = tangential_force(settings, c, pair.friction, contact, springs[k]);
     const Vec3 force = contact.normal_force * contact.normal + tangential;
     const Vec3 moment = contact.normal.cross(tangential);
     Vec3 roll = Vec3::Zero();

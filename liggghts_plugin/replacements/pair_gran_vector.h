@@ -52,7 +52,10 @@ class PairGranVector : public PairGranProxy {
   void take_lists();
   void find_owners();
   void find_twins();
+  bool is_second(std::size_t pair) const;  ///< of the two that stand for one contact
+  void order_active();
   void choose_active();
+  void take_springs();
   void take_coefficients();
   void take_motion();
   suffuse::grains::PassSettings pass_settings(bool advance) const;
@@ -85,9 +88,9 @@ class PairGranVector : public PairGranProxy {
   std::vector<int> first_, second_;  ///< all pairs, in the order of the lists
   static constexpr std::uint32_t kNoTwin = ~0u;
   std::vector<std::uint32_t> twin_;  ///< the same pair, seen from the other side of a periodic face
-  std::vector<suffuse::grains::Quad> springs_;
+  std::vector<suffuse::grains::Quad> springs_;  ///< of active pairs
   std::vector<int> active_first_, active_second_, active_motion_, active_receiver_;
-  std::vector<std::uint32_t> active_spring_, active_pair_;
+  std::vector<std::uint32_t> active_pair_, active_of_;  ///< listed pair of an active one, and the other way
   std::vector<int> owner_;            ///< of a copy whose original is on this rank: that one; else itself
   std::vector<std::size_t> images_;   ///< copies that stand in active pairs
   std::vector<std::size_t> foreign_;  ///< those of grains of other ranks

@@ -85,8 +85,9 @@ void PairGranVector::sample_pass() {
     const int i = list->ilist[ii];
     for (int jj = 0; jj < list->numneigh[i]; ++jj, ++k) values[k] = listgranhistory->firstdouble[i] + 3 * jj;
   }
-  std::vector<suffuse::grains::Quad> springs(springy ? total : 1);
-  for (k = 0; k < values.size(); ++k) springs[k] = {values[k][0], values[k][1], values[k][2], pass_number_};
+  std::vector<suffuse::grains::Quad> springs;
+  for (const std::uint32_t pair : active_pair_)
+    if (springy) springs.push_back({values[pair][0], values[pair][1], values[pair][2], pass_number_});
 
   std::vector<ContactNote> notes;
   suffuse::grains::PassOutput wanted;
@@ -123,8 +124,8 @@ void PairGranVector::tell_contacts(const std::vector<ContactNote>& notes,
 }
 
 suffuse::grains::CandidatePairs PairGranVector::active_pairs() const {
-  return {active_first_.size(),  active_first_.data(),    active_second_.data(),
-          active_motion_.data(), active_receiver_.data(), active_spring_.data()};
+  return {active_first_.size(), active_first_.data(), active_second_.data(), active_motion_.data(),
+          active_receiver_.data()};
 }
 
 /// LIGGGHTS's loop and ours from the same state; what goes on is ours.

@@ -16,7 +16,6 @@ namespace {
 struct Heap {
   std::vector<Quad> position, velocity, spin, springs;
   std::vector<int> material, first, second, receiver;
-  std::vector<std::uint32_t> spring;
   std::vector<PairCoefficients> coefficients;
   int owned;
 
@@ -36,7 +35,6 @@ struct Heap {
         first.push_back(i);
         second.push_back(j);
         receiver.push_back(j < owned ? j : grains);
-        spring.push_back(static_cast<std::uint32_t>(springs.size()));
         springs.push_back(
             {1e-6 * unit(random), 1e-6 * unit(random), 1e-6 * unit(random), random() % 3 == 0 ? 3. : 4.});
       }
@@ -44,7 +42,7 @@ struct Heap {
 
   std::size_t grains() const { return position.size(); }
   CandidatePairs candidates() const {
-    return {first.size(), first.data(), second.data(), second.data(), receiver.data(), spring.data()};
+    return {first.size(), first.data(), second.data(), second.data(), receiver.data()};
   }
   GrainArrays arrays() const { return {position.data(), velocity.data(), spin.data(), material.data()}; }
 
@@ -200,7 +198,7 @@ TEST_CASE("two grains at rest press with 4/3 E* sqrt(r*) overlap^3/2, and slide 
   heap.position = {{0, 0, 0, r}, {2 * r - overlap, 0, 0, r}};
   heap.velocity = {{0, 0, 0, 1e6}, {0, 0, 0, 1e6}};
   heap.spin = {{0, 0, 0, r}, {0, 0, 0, r}};
-  heap.first = {0}, heap.second = {1}, heap.receiver = {1}, heap.spring = {0};
+  heap.first = {0}, heap.second = {1}, heap.receiver = {1};
   heap.springs = {{0, 1e-5, 0, 4}};  // far beyond the limit
   const PassSettings settings = heap.settings(NormalLaw::hertz, TangentialLaw::history, RollingLaw::off, 1);
   const double force = 4. / 3 * 5e7 * std::sqrt(r / 2) * std::pow(overlap, 1.5);
@@ -229,7 +227,7 @@ TEST_CASE(
   heap.position = {{0, 0, 0, r}, {2 * r - 1e-6, 0, 0, r}};
   heap.velocity = {{0, 0, 0, 1e6}, {0, 0, 0, 1e6}};
   heap.spin = {{0, 0, 0, r}, {0, 0, 0, r}};
-  heap.first = {0}, heap.second = {1}, heap.receiver = {1}, heap.spring = {0};
+  heap.first = {0}, heap.second = {1}, heap.receiver = {1};
   heap.springs = {{0, 1e-8, 0, 3}};  // touched two passes ago
   PassSettings settings = heap.settings(NormalLaw::hertz, TangentialLaw::history, RollingLaw::off, 1);
   for (const InstructionSet set : available_instruction_sets()) {
