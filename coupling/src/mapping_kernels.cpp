@@ -229,11 +229,11 @@ template <class T>
   const double first_x = m.x_start + arrays.lo[0] + 0.5 - m.position[0];
   const double end_y = rows.end + (arrays.lo[1] + 0.5 - m.position[1]);
   const double dz = plane_from_centre(m, list, arrays);
-  Moments all, lead;
+  Moments all, internal;
   for (int pack = 0; pack < m.packs; ++pack) {
     const Doubles dx = (first_x + kLanes * pack) + widened(kLaneNumbers);
     const std::ptrdiff_t first = m.x_start + kLanes * pack + arrays.plane_pitch * list.z;
-    ColumnSums<T> taken, ahead;
+    ColumnSums<T> taken, inside;
     for (int y = rows.begin; y < rows.end; ++y, entries += kLanes) {
       const std::ptrdiff_t cell = first + arrays.row_pitch * y;
       const Floats own = load(entries);
@@ -242,14 +242,15 @@ template <class T>
                                             Row<T>::load_from(exchange[1] + cell),
                                             Row<T>::load_from(exchange[2] + cell)};
       taken.add(Row<T>::of(own), h);
-      ahead.add(Row<T>::of(factor * own), h);
+      inside.add(Row<T>::of(factor * own), h);
     }
     taken.add_to(all, dx, end_y, dz);
-    ahead.add_to(lead, dx, end_y, dz);
+    inside.add_to(internal, dx, end_y, dz);
   }
-  const Four sums[3] = {sums_of(all.force[0], all.force[1], all.force[2], all.torque[0]),
-                        sums_of(all.torque[1], all.torque[2], lead.force[0], lead.force[1]),
-                        sums_of(lead.force[2], lead.torque[0], lead.torque[1], lead.torque[2])};
+  const Four sums[3] = {
+      sums_of(all.force[0], all.force[1], all.force[2], all.torque[0]),
+      sums_of(all.torque[1], all.torque[2], internal.force[0], internal.force[1]),
+      sums_of(internal.force[2], internal.torque[0], internal.torque[1], internal.torque[2])};
   static_assert(sizeof(LatticeLoad) == sizeof sums,
                 "force, torque, internal_fluid_momentum, internal_fluid_spin, nothing else");
   double* to = reinterpret_cast<double*>(&load_sum);
