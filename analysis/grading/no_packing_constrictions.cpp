@@ -5,8 +5,8 @@
 namespace suffuse::analysis {
 
 PackingConstrictions packing_constrictions(std::span<const Sphere>, const SphereBox&, double) {
-  throw_user_error({"constriction", "--packing", "in a program that was built without CGAL", "have its triangulation",
-                    "scripts/install_packages packing, configure and build again"});
+  throw_user_error({"constriction", "--packing", "in a program that was built without CGAL",
+                    "have its triangulation", "scripts/install_packages packing, configure and build again"});
 }
 
 }  // namespace suffuse::analysis

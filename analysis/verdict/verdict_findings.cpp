@@ -241,10 +241,10 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
   const ConstrictionLimits& limits = input.constriction_limits;
   const MicroscaleLimits at{limits.coordination, limits.stress_reduction};
   if (findings.measured[0].verdict != findings.measured[1].verdict)
-    sentences.push_back(
-        fmt::format("The thesis words its boundary of Z and alpha in two ways, and here they differ: where either "
-                    "low number makes it unstable the sample is {}, where it takes both {}.",
-                    to_string(findings.measured[0].verdict), to_string(findings.measured[1].verdict)));
+    sentences.push_back(fmt::format(
+        "The thesis words its boundary of Z and alpha in two ways, and here they differ: where either "
+        "low number makes it unstable the sample is {}, where it takes both {}.",
+        to_string(findings.measured[0].verdict), to_string(findings.measured[1].verdict)));
   if ((*halves <= at.stress_reduction) != (*point <= at.stress_reduction))
     sentences.push_back(fmt::format(
         "The two definitions of alpha fall on different sides of {:g}: {:.3g} by pair halves, with "
@@ -254,11 +254,12 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
     const Verdict predicted = microscale_verdict(
         findings.analysis->coordination, findings.analysis->stress_reduction, BoundaryWording::either, at);
     if (predicted != findings.measured[0].verdict)
-      sentences.push_back(fmt::format(
-          "The fits to the constriction sizes predict Z = {:.3g} and alpha = {:.3g}, {}; the sample has {:.3g} and {:.3g}, {}. "
-          "The measured numbers count.",
-          findings.analysis->coordination, findings.analysis->stress_reduction, to_string(predicted), *z,
-          *halves, to_string(findings.measured[0].verdict)));
+      sentences.push_back(
+          fmt::format("The fits to the constriction sizes predict Z = {:.3g} and alpha = {:.3g}, {}; the "
+                      "sample has {:.3g} and {:.3g}, {}. "
+                      "The measured numbers count.",
+                      findings.analysis->coordination, findings.analysis->stress_reduction,
+                      to_string(predicted), *z, *halves, to_string(findings.measured[0].verdict)));
   }
   const auto fines = value_of(record, "fines_solid_share");
   if (!fines || !input.grading.gap()) return;

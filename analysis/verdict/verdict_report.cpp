@@ -140,7 +140,8 @@ void add_boundaries(ReportDocument& report, const VerdictInput& input, const Ver
       add("measured, by contact point", *z, *alpha);
   }
   if (findings.analysis)
-    add("predicted from the constriction sizes (fits)", findings.analysis->coordination, findings.analysis->stress_reduction);
+    add("predicted from the constriction sizes (fits)", findings.analysis->coordination,
+        findings.analysis->stress_reduction);
   if (table.rows.empty()) return;
   report.heading("Contacts and stress of the fines: Z and alpha");
   report.paragraph(fmt::format(
@@ -183,7 +184,8 @@ void add_fabric(ReportDocument& report, const VerdictInput& input, const Verdict
     items.emplace_back(
         "Shire's zones of the fines content (25 and 35 %) are for gap-graded soils; this one has no gap.");
   }
-  if (!findings.sample) items.emplace_back("The fabric case (I to IV, chapter 5 of the thesis) needs a sample.");
+  if (!findings.sample)
+    items.emplace_back("The fabric case (I to IV, chapter 5 of the thesis) needs a sample.");
   report.heading("Fabric and fines content");
   report.list(std::move(items));
 }
@@ -264,7 +266,8 @@ void add_flow(ReportDocument& report, const VerdictFindings& findings,
   if (!findings.flow) return;
   report.heading("Upward flow");
   report.paragraph(
-      "What a run measured, beside the formulas (`docs/analysis/fluidisation.md`). Its bed is that of the "
+      "What a run measured, beside the formulas (`analysis/fluidisation.md` of the documentation). Its bed "
+      "is that of the "
       "run, whose porosity may differ from the soil's above.");
   ReportTable table{{"quantity", "value", "unit", "source", "note"}, {}};
   for (const ResultRows::Row& row : findings.flow->rows())
@@ -293,9 +296,9 @@ ReportDocument verdict_report(const VerdictInput& input, const VerdictFindings& 
   add_sample(report, findings, figures, links);
   report.heading("Sources");
   report.paragraph(
-      "Keys stand for entries of `docs/references.bib`; `haq` is the thesis, whose limits are the defaults. "
-      "Formulas, "
-      "limits and misprints: `docs/analysis/criteria.md`.");
+      "Keys stand for entries of `references.bib` in the documentation; `haq` is the thesis, whose limits "
+      "are "
+      "the defaults. Formulas, limits and misprints: `analysis/criteria.md` there.");
   return report;
 }
 
