@@ -34,7 +34,7 @@ def main():
     if os.geteuid() != 0 or not all(shutil.which(tool) for tool in ("buildah", "debootstrap")):
         print("needs root, buildah and debootstrap")
         sys.exit(77)
-    # Beside the build, not in /tmp: some gigabytes.
+    # Beside the build: some gigabytes.
     with tempfile.TemporaryDirectory(prefix="container-", dir=os.getcwd()) as name:
         folder = pathlib.Path(name)
         buildah = ["buildah", "--storage-driver", "vfs", "--root", folder / "storage", "--runroot", folder / "run"]
