@@ -203,8 +203,9 @@ def check_flow(program, gradings, figures, python):
             os.environ["SUFFUSE_FIGURES"] = before
         markdown = (program.folder / "flow.md").read_text(encoding="utf-8")
         for name in ("flow", "layers"):
-            command = re.search(rf"`({re.escape(str(installed))}/\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
-            again = [python, *command[:-1], "again.svg"]
+            # As it stands, the Python that has matplotlib included.
+            command = re.search(rf"`([^`\n]*{re.escape(str(installed))}/\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
+            again = [*command[:-1], "again.svg"]
             done = subprocess.run(again, cwd=program.folder / "flowing", capture_output=True, text=True, timeout=120)
             check(done.returncode == 0, f"{again}: {done.stderr}")
             check((program.folder / "flowing/again.svg").read_bytes() == (program.folder / f"flowing/{name}.svg").read_bytes(), f"{name}: the same figure again")
