@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "files/project_files.h"
+#include "files/shell_word.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::analysis {
@@ -45,12 +46,6 @@ std::string find_script(const std::string& script, const std::string& who) {
 
 }  // namespace
 
-std::string figure_script_as_called(const std::string& script, const std::string& who) {
-  const std::string found = find_script(script, who);
-  // Of a source tree the path within it, from an installation the whole one.
-  return found.ends_with("/analysis/figures/" + script) ? "analysis/figures/" + script : found;
-}
-
 namespace {
 
 /// Looked for once: trying out matplotlib takes half a second.
@@ -66,6 +61,15 @@ std::string find_python(const std::string& who) {
 }
 
 }  // namespace
+
+std::string figure_script_as_called(const std::string& script, const std::string& who) {
+  const std::string found = find_script(script, who);
+  // Of a source tree the path within it, from an installation the whole one.
+  const std::string path =
+      found.ends_with("/analysis/figures/" + script) ? "analysis/figures/" + script : found;
+  const std::string python = find_python(who);
+  return (python == "python3" ? "" : shell_word(python) + " ") + shell_word(path);
+}
 
 void make_figure(const std::string& script, const std::vector<std::string>& arguments,
                  const std::string& who) {

@@ -14,8 +14,8 @@ namespace suffuse::analysis {
 void make_figure(const std::string& script, const std::vector<std::string>& arguments,
                  const std::string& who);
 
-/// The script as a person calls it from the figure's folder or the source tree: analysis/figures/rose.py in a
-/// source tree, the whole path of an installed one.
+/// The words with which a person calls the script in a shell: analysis/figures/rose.py in a source tree, the
+/// whole path of an installed one; after the Python that has matplotlib, where that is not the plain python3.
 std::string figure_script_as_called(const std::string& script, const std::string& who);
 
 }  // namespace suffuse::analysis

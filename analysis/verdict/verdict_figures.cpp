@@ -134,7 +134,7 @@ std::string content_of(const std::string& path) {
 void draw(Drawing& drawing, const std::string& folder, bool png) {
   VerdictFigure& figure = drawing.figure;
   std::vector<std::string> words = drawing.words;
-  figure.command = shell_word(figure_script_as_called(drawing.script, kWho));
+  figure.command = figure_script_as_called(drawing.script, kWho);
   for (std::string& word : words) {
     figure.command += fmt::format(" {}", shell_word(word));
     if (word.ends_with(".csv")) word = folder + "/" + word;

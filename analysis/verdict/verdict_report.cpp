@@ -267,7 +267,8 @@ void add_flow(ReportDocument& report, const VerdictFindings& findings,
   if (!findings.flow) return;
   report.heading("Upward flow");
   report.paragraph(
-      "What a run measured, beside the formulas (`docs/analysis/fluidisation.md`). Its bed is that of the "
+      "What a run measured, beside the formulas (`analysis/fluidisation.md` of the documentation). Its bed "
+      "is that of the "
       "run, whose porosity may differ from the soil's above.");
   ReportTable table{{"quantity", "value", "unit", "source", "note"}, {}};
   for (const ResultRows::Row& row : findings.flow->rows())
@@ -296,9 +297,9 @@ ReportDocument verdict_report(const VerdictInput& input, const VerdictFindings& 
   add_sample(report, findings, figures, links);
   report.heading("Sources");
   report.paragraph(
-      "Keys stand for entries of `docs/references.bib`; `haq` is the thesis, whose limits are the defaults. "
-      "Formulas, "
-      "limits and misprints: `docs/analysis/criteria.md`.");
+      "Keys stand for entries of `references.bib` in the documentation; `haq` is the thesis, whose limits "
+      "are "
+      "the defaults. Formulas, limits and misprints: `analysis/criteria.md` there.");
   return report;
 }
 

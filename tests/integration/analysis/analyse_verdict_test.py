@@ -172,7 +172,7 @@ def check_page(program, gradings, figures, python):
     links = re.findall(r"^!\[.*\]\((.+)\)$", markdown, re.MULTILINE)
     check(len(links) == 5 and all((program.folder / link).is_file() for link in links), f"Markdown's figures are there: {links}")
     # One of the commands in the captions draws the same figure again from its CSV.
-    command = re.search(r"`analysis/figures/(forces\.py [^`]+)`", markdown)[1].split()
+    command = re.search(r"analysis/figures/(forces\.py [^`]+)`", markdown)[1].split()
     again = [python, figures / command[0], *command[1:-1], "again.svg"]
     done = subprocess.run(again, cwd=program.folder / "kept", capture_output=True, text=True, timeout=120)
     check(done.returncode == 0, f"{again}: {done.stderr}")
@@ -203,8 +203,9 @@ def check_flow(program, gradings, figures, python):
             os.environ["SUFFUSE_FIGURES"] = before
         markdown = (program.folder / "flow.md").read_text(encoding="utf-8")
         for name in ("flow", "layers"):
-            command = re.search(rf"`({re.escape(str(installed))}/\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
-            again = [python, *command[:-1], "again.svg"]
+            # As it stands, the Python that has matplotlib included.
+            command = re.search(rf"`([^`\n]*{re.escape(str(installed))}/\w+\.py [^`]+ --output {name}\.svg)`", markdown)[1].split()
+            again = [*command[:-1], "again.svg"]
             done = subprocess.run(again, cwd=program.folder / "flowing", capture_output=True, text=True, timeout=120)
             check(done.returncode == 0, f"{again}: {done.stderr}")
             check((program.folder / "flowing/again.svg").read_bytes() == (program.folder / f"flowing/{name}.svg").read_bytes(), f"{name}: the same figure again")
