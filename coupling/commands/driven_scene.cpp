@@ -73,6 +73,12 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Liggght
   drive.superficial = at_faces.norm();
   drive.from = "the faces' velocity";
   drive.pressure_range = drops.maxCoeff();
+  if (bed) {
+    const double by_faces =
+        micromechanics::gradient_ergun(at_faces.norm(), grains.sauter_diameter, porosity, water);
+    drive.pressure_range = std::max(
+        drive.pressure_range, by_faces * units.density * 9.81 * grains.extent[largest_component(at_faces)]);
+  }
   double gradient = gradients.maxCoeff() / (units.density * 9.81);
   drive.axis = largest_component(gradient > 0          ? gradients
                                  : at_faces.norm() > 0 ? at_faces
