@@ -73,7 +73,7 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Liggght
   drive.superficial = at_faces.norm();
   drive.from = "the faces' velocity";
   drive.pressure_range = drops.maxCoeff();
-  if (bed) {
+  if (grains.packing > kSparse) {
     const double by_faces =
         micromechanics::gradient_ergun(at_faces.norm(), grains.sauter_diameter, porosity, water);
     drive.pressure_range = std::max(
