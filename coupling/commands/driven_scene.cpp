@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <variant>
 
 #include "../liggghts/fine_diameter.h"
@@ -72,6 +73,12 @@ Drive drive_of(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const Liggght
   drive.superficial = at_faces.norm();
   drive.from = "the faces' velocity";
   drive.pressure_range = drops.maxCoeff();
+  if (grains.packing > kSparse) {
+    const double by_faces =
+        micromechanics::gradient_ergun(at_faces.norm(), grains.sauter_diameter, porosity, water);
+    drive.pressure_range = std::max(
+        drive.pressure_range, by_faces * units.density * 9.81 * grains.extent[largest_component(at_faces)]);
+  }
   double gradient = gradients.maxCoeff() / (units.density * 9.81);
   drive.axis = largest_component(gradient > 0          ? gradients
                                  : at_faces.norm() > 0 ? at_faces
@@ -102,6 +109,12 @@ double response_time(double diameter, const LiggghtsPort::Summary& grains, const
   const double solids = std::min(grains.packing, 0.7), porosity = 1 - solids;
   const double drag = std::max(1., 150. / 18 * solids / (porosity * porosity));
   return grains.smallest_density / units.density * diameter * diameter / (18 * units.viscosity * drag);
+}
+
+/// Sums over grains differ in their last digits from one number of ranks to another; what is chosen by them
+/// does not.
+double six_digits(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
 }
 
 /// With room for water between the bed and its face of the box; along periodic axes there is none.
@@ -174,7 +187,14 @@ DrivenScene driven_scene(LAMMPS_NS::LAMMPS* lmp, const LiggghtsPort& port, const
   if (grains_move)
     scene.falling =
         settings.gravity.now(lmp).norm() * std::abs(1 - settings.units.density / grains.smallest_density);
+  if (scene.falling > 0 && grains.packing > kLeastBed) {
+    scene.bed_stress = scene.falling * grains.smallest_density * grains.packing * scene.bed_length;
+    scene.stiffness_number = port.stiffness_number(scene.bed_stress);
+  }
   scene.not_averaged = not_averaged(lmp, settings, box);
+  for (double* value : {&scene.counted_diameter, &scene.velocity, &scene.grain_speed, &scene.pressure_range,
+                        &scene.sauter_diameter, &scene.solid_fraction, &scene.bed_length, &scene.falling})
+    *value = six_digits(*value);
   return driven;
 }
 

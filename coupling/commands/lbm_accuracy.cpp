@@ -168,6 +168,22 @@ std::string resolved_lines(const AccuracyChoice& choice, const AccuracyScene& sc
   return text;
 }
 
+/// How stiff the contacts are, and would have to be. The script's grains have settled with them by now.
+std::string stiffness_line(const AccuracyWish& wish, const AccuracyScene& scene) {
+  if (!(scene.stiffness_number > 0)) return "";
+  const double enough = least_stiffness_number(wish.share, scene.solid_fraction);
+  const double factor =
+      std::pow(enough / scene.stiffness_number, 1.5);  // kappa ~ E^(2/3) of Hertz's contacts
+  return fmt::format(
+      "lbm accuracy: stiffness  kappa {:.3g} under the bed's weight in water, {:.3g} Pa: {} of the "
+      "permeability; "
+      "{}: {:.2g} times the modulus, DEM steps {:.2g} times as long\n",
+      scene.stiffness_number, scene.bed_stress,
+      percent(softness_error(scene.solid_fraction, scene.stiffness_number)),
+      factor > 1 ? fmt::format("too soft, {:.3g} would do", enough) : fmt::format("{:.3g} would do", enough),
+      factor, 1 / std::sqrt(factor));
+}
+
 /// The cheapest that keeps to what was asked for; `chosen` where none of them is known to.
 AccuracyChoice cheapest(const std::vector<PricedChoice>& choices, const AccuracyWish& wish,
                         const AccuracyChoice& chosen) {
@@ -225,6 +241,7 @@ void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, Ligggh
                                  percent(wish.share), name_of(wish.of), percent(choice.errors.together()));
   text += method_line(choice, wish, scene);
   text += choice.averaged ? averaged_lines(choice, scene) : resolved_lines(choice, scene, velocity_from);
+  text += stiffness_line(wish, scene);
   text += prices_text(choices, choice);
   tell(lmp,
        text + "lbm accuracy: the same is `" + lattice_lines(choice, scene, wish, request.region) + "`\n");

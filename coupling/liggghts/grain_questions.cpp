@@ -19,6 +19,7 @@
 #include "styles/early_stop.h"
 #include "styles/fix_contact_sampler.h"
 #include "styles/fix_hydrodynamic_force.h"
+#include "styles/pair_law.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/sphere.h"
 #include "timer.h"
@@ -188,6 +189,12 @@ GrainQuestions::Summary GrainQuestions::summary() const {
   if (summary.grains == 1)  // fills the box around it, whatever it does
     summary.packing = sums.volume / (lmp_->domain->prd[0] * lmp_->domain->prd[1] * lmp_->domain->prd[2]);
   return summary;
+}
+
+double GrainQuestions::stiffness_number(double mean_stress) const {
+  lmp_->init();  // properties are looked up as a run does
+  const auto law = PairLaw::of(lmp_, "lbm accuracy");
+  return critical_grain(lmp_, law, mean_stress).stiffness_number;
 }
 
 std::vector<Vec3> GrainQuestions::centres() const {

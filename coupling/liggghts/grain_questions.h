@@ -80,6 +80,10 @@ class GrainQuestions {
   };
   Summary summary() const;
 
+  /// Diameter over typical overlap of the softest contacts under a mean stress, Pa; infinite without grains.
+  /// A UserError where there is no contact law. Not within a run. Collective.
+  double stiffness_number(double mean_stress) const;
+
   /// Centres of this rank's grains of the fix's group, m.
   std::vector<Vec3> centres() const;
 

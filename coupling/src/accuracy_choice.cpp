@@ -99,6 +99,16 @@ AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, doubl
   return errors;
 }
 
+double softness_error(double solid_fraction, double stiffness_number) {
+  const double porosity = 1 - solid_fraction;
+  return (3 / porosity + 2 / solid_fraction) * 3 * solid_fraction / stiffness_number;
+}
+
+double least_stiffness_number(double share, double solid_fraction) {
+  constexpr double of_contacts = 1. / 3;
+  return softness_error(solid_fraction, 1) / (of_contacts * share);
+}
+
 double counted_diameter(double fine, double sauter) {
   constexpr double of_fines = 0.5, of_mean = 0.75;
   const double mean_counts = std::clamp((fine / sauter - of_fines) / (of_mean - of_fines), 0., 1.);

@@ -36,14 +36,32 @@ double conductivity_chapuis(double d10, double porosity) {
          std::pow(millimetres * millimetres * std::pow(void_ratio, 3) / (1 + void_ratio), 0.7825);
 }
 
-double velocity_ergun(double gradient, double diameter, double porosity, const SeepageFluid& fluid) {
+namespace {
+
+/// Of linear U + square U² = g i.
+struct ErgunTerms {
+  double linear, square;
+};
+
+ErgunTerms ergun_terms(double diameter, double porosity, const SeepageFluid& fluid) {
   const double solid = 1 - porosity, pore = std::pow(porosity, 3);
-  const double linear = 150 * fluid.kinematic_viscosity * solid * solid / (diameter * diameter * pore);
-  const double square = 1.75 * solid / (diameter * pore);
+  return {150 * fluid.kinematic_viscosity * solid * solid / (diameter * diameter * pore),
+          1.75 * solid / (diameter * pore)};
+}
+
+}  // namespace
+
+double velocity_ergun(double gradient, double diameter, double porosity, const SeepageFluid& fluid) {
+  const auto [linear, square] = ergun_terms(diameter, porosity, fluid);
   const double drive = fluid.gravity * std::abs(gradient);
-  // The root of square U² + linear U = drive, in the form that loses no digits at small gradients.
+  // The root in the form that loses no digits at small gradients.
   const double velocity = 2 * drive / (linear + std::sqrt(linear * linear + 4 * square * drive));
   return std::copysign(velocity, gradient);
+}
+
+double gradient_ergun(double velocity, double diameter, double porosity, const SeepageFluid& fluid) {
+  const auto [linear, square] = ergun_terms(diameter, porosity, fluid);
+  return velocity * (linear + square * std::abs(velocity)) / fluid.gravity;
 }
 
 double minimum_fluidisation_wen_yu(double diameter, double grain_density, const SeepageFluid& fluid) {

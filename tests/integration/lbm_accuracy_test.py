@@ -64,6 +64,9 @@ def check_drive(program):
         slow = program.must_run(bed + "unfix motion\nlbm boundary zlo pressure 0.1 zhi pressure 0\nlbm accuracy 10%\n", folder)
         fast = program.must_run(bed + "unfix motion\nlbm boundary zlo pressure 10 zhi pressure 0\nlbm accuracy 10%\n", folder)
         lifted = program.must_run(bed + "lbm force gravity 0 0 -9.81\nlbm boundary zlo pressure 0.1 zhi pressure 0\nlbm accuracy 10%\n", folder)
+        driven = program.must_run(bed + "unfix motion\nlbm boundary zlo velocity 0 0 1e-3 zhi pressure 0\nlbm accuracy 10%\n", folder)
+    # A velocity at a face takes a pressure as well, Ergun's over the bed.
+    expect(float(re.search(r"; density (\S+) %", driven).group(1)) > 0, f"no pressure of the face's velocity: {driven[-1500:]}")
     speeds = [float(re.search(r"at (\S+) m/s, from", screen).group(1)) for screen in (slow, fast, lifted)]
     expect(10 < speeds[1] / speeds[0] <= 100.5 and speeds[2] > 5 * speeds[0], f"velocities {speeds}")
 

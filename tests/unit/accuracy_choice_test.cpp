@@ -162,6 +162,20 @@ TEST_CASE("A free surface shortens a bed of the averaged flow by half a cell") {
   CHECK(surface_loss(0.6) == Approx(0.6023).epsilon(0.002));
 }
 
+TEST_CASE("Soft contacts lower the permeability as Carman's law says of the porosity that overlaps take") {
+  const double n = 0.4, kappa = 1000, closed = 3 * (1 - n) / kappa;
+  const auto carman = [](double porosity) { return std::pow(porosity, 3) / std::pow(1 - porosity, 2); };
+  CHECK(softness_error(1 - n, kappa) == Approx(1 - carman(n - closed) / carman(n)).epsilon(0.02));
+  CHECK(softness_error(0.6, least_stiffness_number(0.03, 0.6)) == Approx(0.01));
+}
+
+TEST_CASE("Narrow gradings count by their mean, gap graded ones by their fines") {
+  CHECK(counted_diameter(0.8, 1) == 1);
+  CHECK(counted_diameter(0.3, 1) == 0.3);
+  CHECK(counted_diameter(0.625, 1) == Approx((0.625 + 1) / 2));
+  CHECK(counted_diameter(1, 1) == 1);
+}
+
 TEST_CASE("A spacing that fits is the largest up to the one wanted") {
   CHECK(fitting_spacing({1, 2, 3}, 0.3) == Approx(0.25));
   CHECK(fitting_spacing({1, 1, 1}, 1) == Approx(1));

@@ -45,6 +45,8 @@ TEST_CASE("Ergun's velocity: viscous at small gradients, and a root of the equat
     CHECK(150 * 1e-6 * u * std::pow((1 - n) / d, 2) / std::pow(n, 3) +
               1.75 * u * u * (1 - n) / (d * std::pow(n, 3)) ==
           Approx(9.81 * gradient));
+    CHECK(gradient_ergun(u, d, n) == Approx(gradient));
+    CHECK(gradient_ergun(-u, d, n) == Approx(-gradient));
   }
   CHECK(velocity_ergun(-1, d, n) == -velocity_ergun(1, d, n));
   // At Terzaghi's gradient, the least velocity of fluidisation: 1.0972e-3 m/s for d50 = 0.3467 mm.

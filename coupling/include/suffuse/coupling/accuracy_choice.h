@@ -25,6 +25,8 @@ struct AccuracyScene {
   int free_surfaces = 0;         ///< of the bed, with water beyond, across the flow
   double falling = 0;            ///< acceleration of a free grain in the water, m/s^2; 0 where none moves
   double smallest_diameter = 0;  ///< m
+  double bed_stress = 0;         ///< weight in water of a bed that may move, over its area, Pa; else 0
+  double stiffness_number = 0;   ///< diameter over typical overlap under it
   std::string not_averaged;      ///< what of the script the averaged flow has not; empty: nothing
 };
 
@@ -116,6 +118,15 @@ std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scen
 inline constexpr double kScatterOfPackings = 1.3;
 /// Solid fraction from which on grains are a bed, whose drag is Ergun's and which carries its water along.
 inline constexpr double kLeastBed = 0.3;
+
+/// Share by which soft contacts lower the permeability: overlaps of a diameter over kappa fill pores, the
+/// porosity n falls by some 3 (1 - n)/kappa (docs/results/contact_stiffness.md: 2.5 to 3.4 over kappa at n =
+/// 0.23), and k follows n^3/(1 - n)^2 (key: carman1937). No part of what a lattice errs by: the sample is as
+/// it is.
+double softness_error(double solid_fraction, double stiffness_number);
+
+/// The least stiffness number with which that is a third of the share.
+double least_stiffness_number(double share, double solid_fraction);
 
 /// Diameter that cells are counted by, m: the mean (Sauter) of packings whose finest quarter of the surface
 /// (fine_diameter.h) is no finer than three quarters of it, as of those that the errors were measured on; of

@@ -43,6 +43,9 @@ double conductivity_chapuis(double d10, double porosity);
 /// ρ_f g i = 150 μ U (1 − n)²/(d² n³) + 1.75 ρ_f U² (1 − n)/(d n³).
 double velocity_ergun(double gradient, double diameter, double porosity, const SeepageFluid& fluid = {});
 
+/// The gradient at a superficial velocity by the same law.
+double gradient_ergun(double velocity, double diameter, double porosity, const SeepageFluid& fluid = {});
+
 /// Least superficial velocity of fluidisation by Wen and Yu, m/s: U d/ν = √(33.7² + 0.0408 Ar) − 33.7 with Ar
 /// = d³ (ρ_s/ρ_f − 1) g/ν² (key: wenyu1966); knows no porosity, scatters by a third.
 double minimum_fluidisation_wen_yu(double diameter, double grain_density, const SeepageFluid& fluid = {});
