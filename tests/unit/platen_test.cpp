@@ -30,7 +30,6 @@ double force_of_pair(double overlap, double approach) {
   const grains::Quad velocity[] = {{0, 0, -approach, 1 / kMass}, {0, 0, 0, 1e-30}};
   const grains::Quad spin[] = {{0, 0, 0, kRadius}, {0, 0, 0, large}};
   const int first = 0, second = 1;
-  const std::uint32_t spring = 0;
   grains::Quad springs[1];
   grains::Load loads[2];
   grains::PassSettings settings;
@@ -39,8 +38,8 @@ double force_of_pair(double overlap, double approach) {
   grains::PassOutput output;
   output.loads = loads;
   output.owned = 2;
-  grains::reference_contact_pass({1, &first, &second, &second, &second, &spring},
-                                 {position, velocity, spin, nullptr}, settings, springs, output);
+  grains::reference_contact_pass({1, &first, &second, &second, &second}, {position, velocity, spin, nullptr},
+                                 settings, springs, output);
   return loads[0].force.z;
 }
 
