@@ -19,6 +19,7 @@
 #include "verdict/lifting_command.h"
 #include "verdict/reproduce_command.h"
 #include "verdict/shear_command.h"
+#include "verdict/suffusion_command.h"
 #include "verdict/verdict_command.h"
 
 namespace {
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
   suffuse::analysis::add_hydraulic(app);
   suffuse::analysis::add_fluidisation(app);
   suffuse::analysis::add_lifting(app);
+  suffuse::analysis::add_suffusion(app);
   suffuse::analysis::add_rose(app);
   suffuse::analysis::add_reproduce(app);
   suffuse::analysis::add_shear(app);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "files/output_options.h"
+#include "files/script_variables.h"
 #include "grading/criteria_table.h"
 #include "grading/hydraulic_table.h"
 #include "suffuse/common/error.h"
@@ -32,7 +33,7 @@ constexpr const char* kWho = "fluidisation";
 
 struct Options : SeepageOptions {
   OutputOptions outputs;
-  std::string file, grading, output, json, onset;
+  std::string file, grading, output, json, onset, variables;
   std::vector<double> window{0.2, 0.8};
   FluidisationSettings settings;
   std::optional<double> porosity, height;
@@ -300,6 +301,22 @@ ResultRows rows_of(const Options& options, const Run& run, const NumberTable& ta
   return rows;
 }
 
+/// As scripts take them.
+Record variables_of(const Run& run, const NumberTable& table) {
+  const auto first_of = [&](const std::vector<double>* column) {
+    return column != nullptr ? std::optional(column->front()) : std::nullopt;
+  };
+  const auto coordination = table.numbered("coordination_layer_");
+  const auto& stress = run.result.stress;
+  return {{"measured_porosity", run.record.porosity},
+          {"measured_sauter", first_of(table.find("sauter_diameter_m"))},
+          {"conductivity", run.result.flow.slope},
+          {"samples", static_cast<double>(run.result.flow.points)},
+          {"stress_gradient", stress && stress->slope < 0 ? std::optional(stress->root()) : std::nullopt},
+          {"coordination_top", coordination.empty() ? std::nullopt : first_of(coordination.front())},
+          {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
+}
+
 void run_command(Options& options) {
   check(options);
   options.outputs.require_new(kWho);
@@ -314,6 +331,7 @@ void run_command(Options& options) {
   }
   if (!options.output.empty()) rows.write_csv(options.output, kWho);
   if (!options.json.empty()) rows.write_json(options.json, kWho);
+  if (!options.variables.empty()) write_script_variables(options.variables, variables_of(run, table), kWho);
   fmt::print("{}{}", rows.text(), layers);
 }
 
@@ -367,6 +385,8 @@ void add_fluidisation(CLI::App& app) {
   options->add_to(*command);
   options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
   options->outputs.add(*command, "--json", options->json, "JSON file with the same");
+  options->outputs.add(*command, "--variables", options->variables,
+                       "file of `variable` lines for a script to include");
   command->callback([options] { run_command(*options); });
 }
 

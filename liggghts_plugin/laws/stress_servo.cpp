@@ -15,6 +15,9 @@ constexpr double kSlowness = 10;
 constexpr double kCorrection = 0.2;
 /// Constrained modulus over bulk modulus of a packing of central springs: (1/5)/(1/9).
 constexpr double kConstrainedOverBulk = 1.8;
+/// A sample that collapses contracts faster than a quasi-static path allows: its boundaries may be faster by
+/// so many times the share of the controlled stress that it has lost.
+constexpr double kCatchUp = 20;
 /// Control steps are at most so many times as frequent as the longest interval.
 constexpr std::int64_t kMostFrequent = 10;
 /// The bulk modulus of a packing is several times its pressure, for Hertz about κ/2; a floor for nearly empty
@@ -117,7 +120,10 @@ void shear(const Settings& s, const Measurement& m, State& state) {
   const double axial_stress_rate = (m.stress[s.axis] - state.last_stress[s.axis]) / m.interval;
   // Lateral boundaries move to keep a stress, not to deform the sample: they may be up to twice as fast as
   // the axis.
-  const double limit = 2 * std::max(rate_limit(s, m.inertial_size, s.target), std::abs(axial));
+  const double controlled = constant_mean ? mean_stress(m.stress) : (m.stress.sum() - m.stress[s.axis]) / 2;
+  const double lost = std::clamp(1 - controlled / s.target - s.tolerance, 0., 1.);
+  const double limit =
+      2 * std::max(rate_limit(s, m.inertial_size, s.target), std::abs(axial)) * (1 + kCatchUp * lost);
   follow_laterally(s, m, target, constant_mean ? -0.5 * axial_stress_rate : 0.0, limit, state);
 }
 

@@ -80,8 +80,10 @@ def main():
         run(program, folder, "rare", loose_sample(grains=200, friction=0.3), "isotropic 100e3 every 500 until static", 100e3, steps=800000)
         # From the end of a compression along z to an extension along x at the same mean stress.
         run(program, folder, "sheared", read_sample("base.restart"), "constant_p 100e3 axis z rate 1 until axial_strain 0.01", 100e3)
-        # One of four samples of 400 grains collapses when it is turned: p' falls by 8 % in a few hundred steps, faster than a box follows.
-        run(program, folder, "turned", read_sample("sheared.restart"), "constant_p 100e3 axis x extension rate 1 until axial_strain 0.01", 100e3, collapse=0.1)
+        # This loose sample collapses when it is turned and contracts by 1.5 % within its inertial time. At quasi-static rates, twice the
+        # axis's, a box does not follow and p' falls by 88 %; with more for what is lost, by 43 %, and p' is back within 1,500 steps.
+        turned = run(program, folder, "turned", read_sample("sheared.restart"), "constant_p 100e3 axis x extension rate 1 until axial_strain 0.02", 100e3, collapse=0.6)
+        expect(abs(turned["p"][-1] / 100e3 - 1) < 0.005, f"p' does not come back after the collapse: {turned['p'][-1]}")
         collapsing(program, folder)
         liquefying(program, folder)
         destroyed(program, folder)

@@ -2,7 +2,8 @@
 """scene_reports_test.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
 
 What the scenes with water make of their records: 04_single_sphere on a coarse lattice in a narrow box, and the lines that
-03_fluidisation/results.awk draws through a made-up flow.csv whose critical gradient and conductivity are known.
+`suffuse-analyse fluidisation` draws through a made-up flow.csv whose critical gradient and conductivity are known, as 03_fluidisation
+takes them.
 """
 import pathlib
 import subprocess
@@ -30,17 +31,18 @@ def check_sphere(program, folder):
     return values["drag_over_stokes"]
 
 
-def check_lines(folder):
+def check_lines(program, folder):
     rows = made_up.rows(made_up.ramp())
     layers = made_up.LAYERS
     for row in rows:
         for k in range(1, layers + 1):
             row[f"effective_stress_ratio_{k}"] = row[f"vertical_stress_pa_{k}"] / rows[0][f"vertical_stress_pa_{k}"]
             row[f"coordination_layer_{k}"] = 5 + 0.1 * k
+        row["sauter_diameter_m"] = made_up.DIAMETER
     (folder / "flow.csv").write_text(made_up.text(rows))
-    done = subprocess.run(["awk", "-F,", "-v", f"critical={made_up.BED_CRITICAL}", "-f", SCENES / "03_fluidisation" / "results.awk", "flow.csv"],
-                          cwd=folder, capture_output=True, text=True, check=True)
-    values = {line.split()[1]: float(line.split()[3]) for line in done.stdout.splitlines()}
+    analyse = pathlib.Path(program.suffuse).parent / "suffuse-analyse"
+    subprocess.run([analyse, "fluidisation", "flow.csv", "--variables", "results.inc"], cwd=folder, stdout=subprocess.DEVNULL, check=True)
+    values = {line.split()[1]: float(line.split()[3]) for line in (folder / "results.inc").read_text().splitlines()}
     weights = [made_up.critical(n) for n in made_up.POROSITIES]
     above = (sum(weights) - 0.5 * weights[-1]) / (layers - 0.5)  # what carries the middle of the lowest layer
     for name, expected in (("stress_gradient", above), ("conductivity", made_up.BED_CONDUCTIVITY), ("coordination_top", 5.1),
@@ -53,7 +55,7 @@ def main():
     program = program_from_command_line(__doc__)
     with scratch() as scratch_folder:
         folder = pathlib.Path(scratch_folder)
-        check_lines(folder)
+        check_lines(program, folder)
         drag = check_sphere(program, folder)
     print(f"{program.ranks} ranks: drag of a sphere between near sides {drag:.4f} of Stokes'")
 

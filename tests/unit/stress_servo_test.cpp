@@ -14,11 +14,12 @@ namespace {
 class ModelSample {
  public:
   double bulk = 40e6, shear = 25e6, gap = 0.05, dilation = 0;
+  double collapsed = 0;  ///< volumetric strain by which grains have found denser places
 
   Vec3 lengths() const { return (-strain_).array().exp(); }
 
   Vec3 stress() const {
-    Vec3 elastic = strain_ - Vec3::Constant(gap / 3);
+    Vec3 elastic = strain_ - Vec3::Constant((gap + collapsed) / 3);
     elastic -= Vec3::Constant(dilation * axial_plastic_ / 3);
     const double volumetric = elastic.sum();
     if (volumetric <= 0) return Vec3::Zero();
@@ -143,6 +144,48 @@ TEST_CASE("constant mean stress is held within 0.5 % while the sample dilates to
   CHECK(worst < 0.005);
   CHECK(volumetric_strain(run.state, run.sample.lengths()) <
         0);  // dilation is negative: compression is positive
+}
+
+TEST_CASE("boundaries follow a collapse faster than a quasi-static path, and come back without overshoot") {
+  for (const Path path : {Path::constant_mean, Path::triaxial}) {
+    Run run = shear_run(path);
+    for (int i = 0; i < 2000; ++i) run.step();
+    const auto controlled = [&] {
+      const Vec3 stress = run.sample.stress();
+      return (path == Path::constant_mean ? mean_stress(stress) : (stress[0] + stress[1]) / 2) / 200e3;
+    };
+    REQUIRE(controlled() == Approx(1).epsilon(0.005));
+    run.sample.collapsed = 0.6 * 200e3 / run.sample.bulk;  // strain that has carried 0.6 of the stress
+    const double lost = controlled(), quasi_static = rate_limit(run.settings, run.inertial_size, 200e3);
+    REQUIRE(lost < 0.42);
+    double fastest = 0, highest = 0;
+    int steps = 0;
+    for (; controlled() < 0.995; ++steps) {
+      REQUIRE(steps < 1000);
+      run.step();
+      fastest = std::max(fastest, run.state.rate.cwiseAbs().maxCoeff() / quasi_static);
+    }
+    for (int i = 0; i < 2000; ++i) {
+      run.step();
+      highest = std::max(highest, controlled());
+    }
+    CAPTURE(path, steps, fastest, highest);
+    CHECK(fastest > 5);
+    CHECK(fastest < 2 * (1 + 20 * 0.6) * 1.25);  // either boundary, a quarter for their difference
+    CHECK(steps * run.interval < 3.5e-4);        // five inertial times
+    CHECK(highest < 1.005);
+  }
+}
+
+TEST_CASE(
+    "triaxial extension is no collapse: where the mean stress falls as it must, rates stay quasi-static") {
+  Run run = shear_run(Path::triaxial);
+  run.state.axial_direction = -1;
+  const double quasi_static = rate_limit(run.settings, run.inertial_size, 200e3);
+  while (mean_stress(run.sample.stress()) > 0.8 * 200e3) {
+    run.step();
+    REQUIRE(run.state.rate.cwiseAbs().maxCoeff() <= 2.5 * quasi_static);
+  }
 }
 
 TEST_CASE("triaxial compression and extension keep the lateral stresses at the cell pressure") {
