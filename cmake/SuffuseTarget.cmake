@@ -22,13 +22,14 @@ endfunction()
 
 # Headers that take most of a file's time to compile, read once for all libraries: a file then takes some 0.8 s less of 2 or 3. Off by default,
 # as compilers' caches know little of it, and a file that lacks an include would pass.
-# OWN: for a target that is compiled by other options than the libraries.
+# OWN HEADER...: for a target that is compiled by other options than the libraries, with headers of its own besides.
 function(suffuse_precompiled_headers target)
   if(NOT SUFFUSE_PRECOMPILED_HEADERS)
     return()
   endif()
-  if(target STREQUAL suffuse_common OR "OWN" IN_LIST ARGN)
-    target_precompile_headers(${target} PRIVATE <Eigen/Dense> <fmt/format.h> <algorithm> <array> <functional> <map> <string> <vector>)
+  cmake_parse_arguments(ARG "" "" "OWN" ${ARGN})
+  if(target STREQUAL suffuse_common OR ARG_OWN)
+    target_precompile_headers(${target} PRIVATE ${ARG_OWN} <Eigen/Dense> <fmt/format.h> <algorithm> <array> <functional> <map> <string> <vector>)
   else()
     target_precompile_headers(${target} REUSE_FROM suffuse_common)
   endif()
