@@ -26,12 +26,12 @@ void require_cells_of_grains(double spacing, const LiggghtsPort::Summary& grains
                       fmt::format("about three, {:.2g} m, is usual", 3 * grains.sauter_diameter)});
 }
 
-/// How often a step monitors and guards look at all cells.
-double looks_of(const LbmRequest& request, double fluid_step) {
-  double looks = 1. / LbmRun::kCheckEvery;
+/// How often a step monitors and guards go through all cells.
+double sweeps_of(const LbmRequest& request, double fluid_step) {
+  double sweeps = 1. / LbmRun::kCheckEvery;
   for (const MonitorRequest& monitor : request.monitors)
-    looks = std::max(looks, std::min(1., fluid_step / monitor.every));
-  return looks;
+    sweeps = std::max(sweeps, std::min(1., fluid_step / monitor.every));
+  return sweeps;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ RunPrice price_of_run(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& request, Liggght
   price.settings.substeps = substeps_for(request, port);
   const double step = lbm::Units(price.settings.units).time_step();
   price.costs =
-      trial_costs(price.settings, parts, low, port, step / price.settings.substeps, looks_of(request, step));
+      trial_costs(price.settings, parts, low, port, step / price.settings.substeps, sweeps_of(request, step));
   const PastRun past = port.past_run();
   price.grains_known = past.grain_steps > 0;
   const auto grains = static_cast<double>(port.summary().grains);

@@ -71,17 +71,17 @@ class Trial {
             -slowest(-share)};
   }
 
-  /// One look at all cells, as monitors and guards do.
-  double look() {
-    constexpr int looks = 3;
+  /// One sweep of all cells, as monitors and guards do.
+  double sweep() {
+    constexpr int sweeps = 3;
     double wall = 0;
     const MappedScene scene = simulation_.map();
     const double share = share_during([&] {
       const double start = MPI_Wtime();
-      for (int n = 0; n < looks; ++n) (void)plane_sums(scene, 2);
+      for (int n = 0; n < sweeps; ++n) (void)plane_sums(scene, 2);
       wall = MPI_Wtime() - start;
     });
-    return slowest(share * wall / looks);
+    return slowest(share * wall / sweeps);
   }
 
  private:
@@ -104,7 +104,7 @@ class Trial {
 }  // namespace
 
 TrialCosts trial_costs(const CoupledSettings& settings, const lbm::Decomposition& parts, const Vec3& low,
-                       LiggghtsPort& port, double dem_step, double looks) {
+                       LiggghtsPort& port, double dem_step, double sweeps) {
   const bool grains_move = port.summary().grains > 0 && port.anything_moves();
   constexpr int warm_up = 2, surveys = 5, fewest = 6, most = 40;
   constexpr double seconds = 0.4;  // that the trial may take where steps are short
@@ -127,7 +127,7 @@ TrialCosts trial_costs(const CoupledSettings& settings, const lbm::Decomposition
     costs.mapping += std::max(0., with_survey - costs.mapping) / settings.solids.survey_every;
   }
   if (!grains_move) costs.mapping = costs.exchange = 0;
-  costs.samples = looks * trial.look();
+  costs.samples = sweeps * trial.sweep();
   costs.bytes = static_cast<double>(simulation.bytes());
   MPI_Allreduce(MPI_IN_PLACE, &costs.bytes, 1, MPI_DOUBLE, MPI_SUM, parts.communicator());
   return costs;

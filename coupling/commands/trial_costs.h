@@ -16,10 +16,10 @@ struct TrialCosts {
 
 /// Times a few steps of a fluid of these settings and a mapping of the grains as they are, and throws both
 /// away. Seconds are those on processors of one's own: without what other programs took from the trial.
-/// `dem_step`: the grains' step, settings.substeps of which fill the fluid's; `looks`: how often a step
-/// monitors and guards look at all cells. What the grains take is left 0. Collective.
+/// `dem_step`: the grains' step, settings.substeps of which fill the fluid's; `sweeps`: how often a step
+/// monitors and guards go through all cells. What the grains take is left 0. Collective.
 TrialCosts trial_costs(const CoupledSettings& settings, const lbm::Decomposition& parts, const Vec3& low,
-                       LiggghtsPort& port, double dem_step, double looks);
+                       LiggghtsPort& port, double dem_step, double sweeps);
 
 /// What so many steps of LIGGGHTS's take, s: at the speed of its last run, or on usual cores, with the
 /// messages between them.
