@@ -119,26 +119,24 @@ void add_sample_sentences(const VerdictInput& input, const VerdictFindings& find
                     100 * *fines, to_string(zone), to_string(fabric), description(fabric)));
 }
 
-}  // namespace
+std::string headline_of_sample(const VerdictInput& input, const VerdictFindings& findings) {
+  const Record& record = findings.sample->record;
+  const std::string numbers =
+      fmt::format("{} contacts a grain (Z), fines under {} of the mean stress (alpha)",
+                  measured_text(record, "coordination_number"), measured_text(record, "alpha_pair_halves"));
+  const char* where = findings.sample->at_rest ? "measured on the sample at rest" : "measured on the sample";
+  const ConstrictionLimits& limits = input.constriction_limits;
+  if (findings.measured[0].verdict != findings.measured[1].verdict)
+    return fmt::format(
+        "Between stable and unstable, {}: {}. One of the two is beyond its limit ({:g} and {:g}), the "
+        "other is not.",
+        where, numbers, limits.coordination, limits.stress_reduction);
+  return fmt::format("Internally {}, {}: {}. The limits are {:g} and {:g}.",
+                     to_string(findings.measured[0].verdict), where, numbers, limits.coordination,
+                     limits.stress_reduction);
+}
 
-std::string headline(const VerdictInput& input, const VerdictFindings& findings) {
-  if (!findings.measured.empty()) {
-    const Record& record = findings.sample->record;
-    const std::string numbers =
-        fmt::format("{} contacts a grain (Z), fines under {} of the mean stress (alpha)",
-                    measured_text(record, "coordination_number"), measured_text(record, "alpha_pair_halves"));
-    const char* where =
-        findings.sample->at_rest ? "measured on the sample at rest" : "measured on the sample";
-    const ConstrictionLimits& limits = input.constriction_limits;
-    if (findings.measured[0].verdict != findings.measured[1].verdict)
-      return fmt::format(
-          "Between stable and unstable, {}: {}. One of the two is beyond its limit ({:g} and {:g}), the "
-          "other is not.",
-          where, numbers, limits.coordination, limits.stress_reduction);
-    return fmt::format("Internally {}, {}: {}. The limits are {:g} and {:g}.",
-                       to_string(findings.measured[0].verdict), where, numbers, limits.coordination,
-                       limits.stress_reduction);
-  }
+std::string headline_of_grading(const VerdictInput& input, const VerdictFindings& findings) {
   const double limit = input.constriction_limits.chapter_4;
   constexpr const char* kRatio = "the pores' controlling constriction over the larger fine grains (Dc35/d85)";
   if (hangs_on_split(findings))
@@ -154,14 +152,23 @@ std::string headline(const VerdictInput& input, const VerdictFindings& findings)
           "unstable from {:g}.",
           kRatio, at->value, to_string(at->verdict), dense->value, to_string(dense->verdict), limit);
     return fmt::format(
-        "Internally {}: {} is {:.3g}{}; unstable from {:g}. No sample was measured.", to_string(at->verdict),
-        kRatio, at->value,
+        "Internally {}: {} is {:.3g}{}; unstable from {:g}.", to_string(at->verdict), kRatio, at->value,
         dense != nullptr ? fmt::format(" in the loosest, {:.3g} in the densest state", dense->value) : "",
         limit);
   }
   const std::optional<Verdict> most = leaning(findings.grading);
   return fmt::format("{}: only criteria on grain sizes apply, and they do not know the density.",
                      most ? fmt::format("Most criteria say {}", to_string(*most)) : "Undecided");
+}
+
+}  // namespace
+
+std::string headline(const VerdictInput& input, const VerdictFindings& findings) {
+  if (!findings.measured.empty()) return headline_of_sample(input, findings);
+  return headline_of_grading(input, findings) + (findings.sample
+                                                     ? " The sample was measured, but has no alpha with this "
+                                                       "split between fines and coarse grains: see --split."
+                                                     : " No sample was measured.");
 }
 
 std::vector<std::string> agreement_sentences(const VerdictFindings& findings) {

@@ -121,6 +121,9 @@ def check_sample(program, gradings):
     # A stable grading in this state: the criteria say one thing, the sample another.
     must_say(program.must_run(gradings / "appendix_A.csv", *sample), "The measured numbers count.",
              "The sample is unstable by Z and alpha (either is low), most criteria on constrictions say stable")
+    # A split below all grains: there are no fines whose stress could be measured, and the headline is the grading's.
+    must_say(program.must_run(grading, *sample[:3], "--split", 1e-6), "Internally unstable: the pores' controlling constriction",
+             "The sample was measured, but has no alpha with this split between fines and coarse grains: see --split.")
     # Without a PSD: the sample's own grains.
     must_say(program.must_run(*sample), "Grading: the grains of the sample", "Relative density: not given")
 
