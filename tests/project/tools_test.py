@@ -42,9 +42,10 @@ class FakeMachine:
         return run(SOURCE / "scripts/install_packages", *kinds, env={"PATH": str(self.bin)})
 
 
-def packages(*kinds):
+def packages(*kinds, choice=0):
+    """Of alternatives the first, or the last with -1."""
     lines = (SOURCE / "scripts/packages.txt").read_text().splitlines()
-    return [line.split()[1] for line in lines if line.split()[:1] and line.split()[0] in kinds]
+    return [line.split()[1].split("|")[choice] for line in lines if line.split()[:1] and line.split()[0] in kinds]
 
 
 class InstallPackages(unittest.TestCase):
@@ -57,6 +58,13 @@ class InstallPackages(unittest.TestCase):
         machine = FakeMachine(self.folder, packages("run", "check"), network=False)
         done = machine.install_packages("run", "check")
         self.assertEqual((done.returncode, done.stdout, machine.log.read_text()), (0, "", ""), done.stderr)
+
+    def test_any_of_alternatives_will_do(self):
+        others = packages("run", choice=-1)
+        self.assertNotEqual(others, packages("run"), "there are no alternatives to be tested")
+        machine = FakeMachine(self.folder, others, network=False)
+        done = machine.install_packages("run")
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
 
     def test_root_installs_what_is_missing_and_only_that_and_only_once(self):
         missing = packages("run")[-1]
