@@ -9,8 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "files/output_options.h"
-#include "files/script_variables.h"
 #include "grading/criteria_table.h"
 #include "grading/hydraulic_table.h"
 #include "suffuse/common/error.h"
@@ -22,7 +20,7 @@
 #include "verdict/flow_record.h"
 #include "verdict/fluidisation_layers.h"
 #include "verdict/onset_table.h"
-#include "verdict/result_rows.h"
+#include "verdict/result_outputs.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -32,8 +30,8 @@ using namespace micromechanics;
 constexpr const char* kWho = "fluidisation";
 
 struct Options : SeepageOptions {
-  OutputOptions outputs;
-  std::string file, grading, output, json, onset, variables;
+  ResultOutputs outputs;
+  std::string file, grading, onset;
   std::vector<double> window{0.2, 0.8};
   FluidisationSettings settings;
   std::optional<double> porosity, height;
@@ -329,9 +327,7 @@ void run_command(Options& options) {
     if (!options.onset.empty()) write_onset(options, run, results);
     layers = std::move(results.text);
   }
-  if (!options.output.empty()) rows.write_csv(options.output, kWho);
-  if (!options.json.empty()) rows.write_json(options.json, kWho);
-  if (!options.variables.empty()) write_script_variables(options.variables, variables_of(run, table), kWho);
+  options.outputs.write(rows, kWho, [&] { return variables_of(run, table); });
   fmt::print("{}{}", rows.text(), layers);
 }
 
@@ -383,10 +379,8 @@ void add_fluidisation(CLI::App& app) {
       ->capture_default_str()
       ->needs(dumps);
   options->add_to(*command);
-  options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
-  options->outputs.add(*command, "--json", options->json, "JSON file with the same");
-  options->outputs.add(*command, "--variables", options->variables,
-                       "file of `variable` lines for a script to include");
+  options->outputs.add_rows(*command);
+  options->outputs.add_variables(*command, "file of `variable` lines for a script to include");
   command->callback([options] { run_command(*options); });
 }
 

@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "files/output_options.h"
 #include "grading/hydraulic_table.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/fluidisation.h"
 #include "suffuse/micromechanics/seepage.h"
 #include "verdict/flow_record.h"
-#include "verdict/result_rows.h"
+#include "verdict/result_outputs.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -22,8 +21,8 @@ using namespace micromechanics;
 constexpr const char* kWho = "lifting";
 
 struct Options : SeepageOptions {
-  OutputOptions outputs;
-  std::string file, output, json;
+  ResultOutputs outputs;
+  std::string file;
   double diameter = 0;
   std::vector<double> window{0.2, 0.7};
 };
@@ -73,8 +72,7 @@ void run(const Options& options) {
   rows.add("pressure drop of the floating bed over the weight", "",
            lifting.floating > 0 ? std::optional(lifting.floating) : std::nullopt, "-", "mean beyond 1.3 v_mf",
            lifting.floating > 0 ? "" : "not reached");
-  if (!options.output.empty()) rows.write_csv(options.output, kWho);
-  if (!options.json.empty()) rows.write_json(options.json, kWho);
+  options.outputs.write(rows, kWho);
   fmt::print("{}", rows.text());
 }
 
@@ -96,8 +94,7 @@ void add_lifting(CLI::App& app) {
       ->expected(2)
       ->capture_default_str();
   options->add_to(*command);
-  options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
-  options->outputs.add(*command, "--json", options->json, "JSON file with the same");
+  options->outputs.add_rows(*command);
   command->callback([options] { run(*options); });
 }
 

@@ -9,12 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "files/output_options.h"
-#include "files/script_variables.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/suffusion.h"
 #include "verdict/flow_record.h"
-#include "verdict/result_rows.h"
+#include "verdict/result_outputs.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -26,8 +24,8 @@ constexpr std::array<double, 3> kErodedShares{0.002, 0.01, 0.05};
 constexpr std::array<const char*, 3> kErodedNames{"onset_2_permille", "onset_1_percent", "onset_5_percent"};
 
 struct Options {
-  OutputOptions outputs;
-  std::string file, output, json, variables;
+  ResultOutputs outputs;
+  std::string file;
 };
 
 std::vector<SuffusionState> states_of(const NumberTable& table) {
@@ -82,9 +80,7 @@ void run(const Options& options) {
   double largest = 0;
   for (const SuffusionState& state : states) largest = std::max(largest, state.gradient);
   const ResultRows rows = rows_of(onset, largest);
-  if (!options.output.empty()) rows.write_csv(options.output, kWho);
-  if (!options.json.empty()) rows.write_json(options.json, kWho);
-  if (!options.variables.empty()) write_script_variables(options.variables, variables_of(onset), kWho);
+  options.outputs.write(rows, kWho, [&] { return variables_of(onset); });
   fmt::print("{}", rows.text());
 }
 
@@ -99,10 +95,9 @@ void add_suffusion(CLI::App& app) {
                    "CSV file of `lbm monitor`: applied_gradient, eroded_fines_share, fines_share_layer_N, "
                    "hydraulic_gradient_layer_N")
       ->required();
-  options->outputs.add(*command, "--output,--csv", options->output, "CSV file with the same");
-  options->outputs.add(*command, "--json", options->json, "JSON file with the same");
-  options->outputs.add(*command, "--variables", options->variables,
-                       "file of `variable` lines for a script to include, 0 for gradients never reached");
+  options->outputs.add_rows(*command);
+  options->outputs.add_variables(
+      *command, "file of `variable` lines for a script to include, 0 for gradients never reached");
   command->callback([options] { run(*options); });
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../liggghts/instance.h"
@@ -12,7 +13,7 @@
 #include "run_price.h"
 #include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
-#include "suffuse/common/safe_file.h"
+#include "suffuse/common/variable_file.h"
 
 namespace suffuse::coupling {
 
@@ -254,12 +255,9 @@ void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std
   const double sound = settings.averaged ? incompressible : spacing / step / std::sqrt(3.);
   const std::string who = "lbm accuracy";
   on_first_rank(who, communicator_of(lmp), [&] {
-    SafeFile out(file, who);
-    out.write(
-        fmt::format("variable lattice_spacing equal {}\nvariable lattice_timestep equal {}\n"
-                    "variable lattice_sound equal {}\n",
-                    spacing, step, sound));
-    out.commit();
+    const std::pair<const char*, double> variables[] = {
+        {"lattice_spacing", spacing}, {"lattice_timestep", step}, {"lattice_sound", sound}};
+    write_variable_file(file, variables, who);
   });
 }
 

@@ -16,9 +16,8 @@ namespace suffuse::coupling {
 
 namespace {
 
-/// Closures are means over several grains.
 void require_cells_of_grains(double spacing, const LiggghtsPort::Summary& grains) {
-  constexpr double least = 1.5, rounding = 1e-9;
+  constexpr double least = kLeastDiametersOfCell, rounding = 1e-9;
   if (grains.grains > 0 && spacing < least * grains.sauter_diameter * (1 - rounding))
     throw_user_error({"lbm lattice", "spacing", fmt::format("{:g} m", spacing),
                       fmt::format("be at least {:g} mean diameters, {:.3g} m, with `lbm method averaged`",

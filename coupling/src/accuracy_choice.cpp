@@ -10,6 +10,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/coupling/automatic_coefficient.h"
 #include "suffuse/coupling/effects.h"
+#include "suffuse/coupling/methods/averaged_settings.h"
 
 namespace suffuse::coupling {
 
@@ -34,8 +35,8 @@ double distance_from_whole(double value) {
   return std::abs(value - std::max(1., std::round(value)));
 }
 
-/// Diameters a cell of the averaged flow: what is tried in this order, and its limits.
-constexpr double kDiameters[] = {3, 2.25, 4, 5.3, 6}, kLeastDiameters = 1.5;
+/// Diameters a cell of the averaged flow: what is tried, in this order.
+constexpr double kDiameters[] = {3, 2.25, 4, 5.3, 6};
 /// Its steps: shares of a grain's fall by its diameter, of a cell that the fastest water passes, and of the
 /// time in which a flow past a grain starts, d^2/nu.
 constexpr double kShareOfFall = 1. / 30, kCellsAStep = 0.1, kShareOfStart = 0.1;
@@ -154,7 +155,7 @@ namespace {
 double averaged_spacing(const AccuracyScene& scene) {
   for (const double diameters : kDiameters) {
     const double spacing = fitting_spacing(scene.size, diameters * scene.sauter_diameter);
-    if (spacing >= kLeastDiameters * scene.sauter_diameter) return spacing;
+    if (spacing >= kLeastDiametersOfCell * scene.sauter_diameter) return spacing;
   }
   return 0;
 }
@@ -215,7 +216,7 @@ std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scen
   if (!scene.not_averaged.empty()) return scene.not_averaged;
   if (!(scene.solid_fraction > kLeastBed)) return "the grains are no bed, and its errors are those of beds";
   if (averaged_spacing(scene) <= 0)
-    return fmt::format("no cells of {:g} to {:g} mean diameters divide the box", kLeastDiameters,
+    return fmt::format("no cells of {:g} to {:g} mean diameters divide the box", kLeastDiametersOfCell,
                        *std::max_element(std::begin(kDiameters), std::end(kDiameters)));
   return "";
 }

@@ -18,7 +18,7 @@ double resistance(double solid_fraction) {
 }
 
 /// What a cell, so many cells beyond the surface of a half space of grains, gets of a whole share: the
-/// integral of the quadratic spline of spline_kernel.h.
+/// integral of the quadratic spline of axis_shares.h.
 double share_beyond_surface(double cells) {
   const double x = std::abs(cells);
   const double inner = 0.5 - 0.75 * x + x * x * x / 3, outer = std::pow(std::max(0., 1.5 - x), 3) / 6;

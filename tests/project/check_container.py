@@ -5,22 +5,17 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from commands import run  # noqa: E402
 
 BASE = "localhost/suffuse-bookworm"
 IMAGE = "localhost/suffuse-checked"
 SCENE = "/usr/share/suffuse/input_scripts/01_isotropic_compression/in.isotropic_compression"
 FIGURE = "/usr/share/suffuse/figures/compression.py"
 ROWS = re.compile(r"^\s*porosity\b.*", re.MULTILINE)
-
-
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: code {done.returncode}\n{done.stdout[-3000:]}")
-    return done.stdout
 
 
 def mirror():

@@ -3,16 +3,11 @@
 against its libraries and headers and computes with them; and configures with the sources as its subproject."""
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
-
-def run(*command):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: code {done.returncode}\n{done.stdout[-3000:]}")
-    return done.stdout
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from commands import run  # noqa: E402
 
 
 def main():

@@ -2,9 +2,11 @@
 """package_test.py BUILD_FOLDER VERSION CPACK: the Debian packages have what they should, need what is in bookworm, install under a
 root of their own, and the program runs from there."""
 import pathlib
-import subprocess
 import sys
 import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from commands import run  # noqa: E402
 
 HELD = {"suffuse": ["./usr/bin/suffuse", "./usr/bin/suffuse-analyse", "./usr/bin/suffuse-study", "./usr/bin/suffuse-flow", "./usr/bin/suffuse-mpirun",
                     "./usr/share/suffuse/input_scripts/01_isotropic_compression/in.isotropic_compression", "./usr/share/suffuse/figures/fluidisation.py",
@@ -12,13 +14,6 @@ HELD = {"suffuse": ["./usr/bin/suffuse", "./usr/bin/suffuse-analyse", "./usr/bin
         "suffuse-dev": ["./usr/include/suffuse-0.1/suffuse/lbm/fluid.h", "./usr/include/suffuse-0.1/register_styles.h"]}
 NEEDED = {"suffuse": ["libliggghts3", "libopenmpi3", "libhdf5-openmpi-103", "openmpi-bin"], "suffuse-dev": ["libliggghts-dev", "libeigen3-dev"]}
 SCENE = "units si\natom_style granular\nboundary f f f\nnewton off\nregion b block 0 1 0 1 0 1 units box\ncreate_box 1 b\nlbm fluid density 1000\n"
-
-
-def run(*command, **options):
-    done = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: code {done.returncode}\n{done.stdout[-3000:]}")
-    return done.stdout
 
 
 def main():

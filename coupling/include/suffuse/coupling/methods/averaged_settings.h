@@ -4,6 +4,9 @@
 
 namespace suffuse::coupling {
 
+/// Mean (Sauter) diameters a cell must be wide at least: closures are means over several grains.
+inline constexpr double kLeastDiametersOfCell = 1.5;
+
 /// `lbm method averaged`
 struct AveragedSettings {
   DragLaw drag = DragLaw::beetstra;

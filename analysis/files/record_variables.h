@@ -6,7 +6,7 @@
 
 namespace suffuse::analysis {
 
-/// A line `variable NAME equal VALUE` for each number, for a LIGGGHTS script to include. Throws UserError
+/// The record as a file for a LIGGGHTS script to include (variable_file.h). Throws UserError
 /// (`who` first) for a number that is not known, which a script could not use.
 void write_script_variables(const std::string& path, const Record& record, const std::string& who);
 

@@ -1,25 +1,25 @@
-#include "files/script_variables.h"
+#include "files/record_variables.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "suffuse/common/error.h"
-#include "suffuse/common/safe_file.h"
+#include "suffuse/common/variable_file.h"
 
 namespace suffuse::analysis {
 
 void write_script_variables(const std::string& path, const Record& record, const std::string& who) {
-  std::string text;
+  std::vector<std::pair<const char*, double>> variables;
   for (const auto& [name, value] : record) {
     if (!value || !std::isfinite(*value))
       throw_user_error({who, "--variables", fmt::format("no {}", name), "be a number for a script",
                         "let the run go on, or have the monitor write what it is made from"});
-    text += fmt::format("variable {} equal {:.10g}\n", name, *value);
+    variables.emplace_back(name, *value);
   }
-  SafeFile file(path, who + " --variables");
-  file.write(text);
-  file.commit();
+  write_variable_file(path, variables, who + " --variables");
 }
 
 }  // namespace suffuse::analysis
