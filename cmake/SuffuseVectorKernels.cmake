@@ -22,6 +22,7 @@ function(suffuse_vector_kernels)
     target_compile_definitions(${objects} PRIVATE SUFFUSE_KERNEL_NAMESPACE=${instruction_set} ${ARG_DEFINITIONS})
     target_compile_options(${objects} PRIVATE -O3 -fno-math-errno -fno-trapping-math -fno-signed-zeros
       -ffp-contract=fast -Wno-psabi ${flags_${instruction_set}})
+    set_target_properties(${objects} PROPERTIES UNITY_BUILD OFF)
     target_sources(${ARG_TARGET} PRIVATE $<TARGET_OBJECTS:${objects}>)
   endforeach()
 endfunction()

@@ -17,11 +17,11 @@
 namespace suffuse::analysis {
 namespace {
 
-constexpr const char* kWho = "contacts";
+constexpr const char* kContacts = "contacts";
 /// Below this size a series is read before anybody looks for a progress line.
 constexpr std::int64_t kLongSeries = 50'000'000;
 
-struct Options {
+struct ContactsOptions {
   ReadOptions read;
   SplitOption split;
   OutputOptions outputs;
@@ -38,21 +38,21 @@ void read_strong(const std::string& text, MeasureSettings& measures) {
   } else {
     measures.strong = StrongThreshold::force;
     if (!parse_number(text, measures.strong_force) || !(measures.strong_force > 0))
-      throw_user_error({kWho, "--strong", text, "be mean, frozen or a force > 0 in N", ""});
+      throw_user_error({kContacts, "--strong", text, "be mean, frozen or a force > 0 in N", ""});
   }
 }
 
-void check(Options& options) {
+void check(ContactsOptions& options) {
   MeasureSettings& measures = options.measures;
   read_strong(options.strong, measures);
-  measures.axis = axis_of(options.axis, kWho);
+  measures.axis = axis_of(options.axis, kContacts);
   if (const auto& given = options.tolerance) {
     if (!(*given >= 0 && *given < 1))
-      throw_user_error({kWho, "--sliding-tolerance", fmt::format("{}", *given), "be >= 0 and < 1", ""});
+      throw_user_error({kContacts, "--sliding-tolerance", fmt::format("{}", *given), "be >= 0 and < 1", ""});
     measures.sliding_tolerance = *given;
   }
   const auto in_range = [](bool fine, const char* option, double value, const char* rule) {
-    if (!fine) throw_user_error({kWho, option, fmt::format("{}", value), rule, ""});
+    if (!fine) throw_user_error({kContacts, option, fmt::format("{}", value), rule, ""});
   };
   in_range(measures.rattler_contacts >= 1, "--rattler-contacts", measures.rattler_contacts, "be >= 1");
   in_range(measures.force_bins.width > 0, "--force-bin", measures.force_bins.width, "be > 0");
@@ -77,7 +77,7 @@ std::vector<ScreenTable::Column> screen_columns() {
           {"rattler_share", "rattlers"}};
 }
 
-void tell_settings(const Options& options, const Snapshot& first) {
+void tell_settings(const ContactsOptions& options, const Snapshot& first) {
   if (options.measures.split)
     fmt::print("fines: diameter below {:.6g} m", *options.measures.split);
   else
@@ -87,15 +87,15 @@ void tell_settings(const Options& options, const Snapshot& first) {
   std::fflush(stdout);
 }
 
-void run(Options& options) {
+void run(ContactsOptions& options) {
   check(options);
-  options.outputs.require_new(kWho);
+  options.outputs.require_new(kContacts);
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   std::optional<CsvWriter> csv, pdf;
   std::optional<JsonWriter> json;
-  if (!options.output.empty()) csv.emplace(options.output, kWho);
-  if (!options.force_pdf.empty()) pdf.emplace(options.force_pdf, kWho);
-  if (!options.json.empty()) json.emplace(options.json, kWho);
+  if (!options.output.empty()) csv.emplace(options.output, kContacts);
+  if (!options.force_pdf.empty()) pdf.emplace(options.force_pdf, kContacts);
+  if (!options.json.empty()) json.emplace(options.json, kContacts);
   ScreenTable table(screen_columns());
   const bool is_long = series->bytes() > kLongSeries;
   ProgressLine progress(is_long);
@@ -104,7 +104,7 @@ void run(Options& options) {
   std::int64_t snapshots = 0, above_limit = 0;
   while (series->next(snapshot)) {
     if (!measurer) {
-      options.measures.split = options.split.value(snapshot.packing, kWho);
+      options.measures.split = options.split.value(snapshot.packing, kContacts);
       measurer.emplace(options.measures);
       tell_settings(options, snapshot);
     }
@@ -138,9 +138,9 @@ void run(Options& options) {
 }  // namespace
 
 void add_contacts(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ContactsOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho,
+      kContacts,
       "Contact network of every snapshot: Z, alpha, sliding, constraint ratio, fabric, forces, rattlers");
   options->read.add_to(*command);
   options->split.add_to(*command);

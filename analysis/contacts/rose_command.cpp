@@ -21,10 +21,10 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "rose";
+constexpr const char* kRose = "rose";
 constexpr double kDegree = std::numbers::pi / 180;
 
-struct Options {
+struct RoseOptions {
   OutputOptions outputs;
   ReadOptions read;
   std::string plane = "xz", step = "last", output, fits, sphere, figure, sphere_figure;
@@ -35,7 +35,7 @@ Plane plane_of(const std::string& text) {
   if (text == "xy") return Plane::xy;
   if (text == "xz") return Plane::xz;
   if (text == "yz") return Plane::yz;
-  throw_user_error({kWho, "--plane", text, "be xy, xz or yz", ""});
+  throw_user_error({kRose, "--plane", text, "be xy, xz or yz", ""});
 }
 
 /// Sums over the snapshots that were asked for.
@@ -46,7 +46,7 @@ struct Sums {
   std::int64_t snapshots = 0, step = 0;
   double contacts = 0;
 
-  void add(const Packing& packing, const Options& options, const SphericalGrid& grid) {
+  void add(const Packing& packing, const RoseOptions& options, const SphericalGrid& grid) {
     const FabricSums fabric = fabric_sums(packing);
     const PlaneDistribution in_plane = plane_distribution(packing, plane_of(options.plane), options.bins);
     const SphericalDistribution over_sphere = spherical_distribution(packing, grid);
@@ -64,7 +64,7 @@ struct Sums {
 };
 
 void write_fits(const std::string& path, const std::vector<Rose>& roses, int bins) {
-  SafeFile file(path, kWho);
+  SafeFile file(path, kRose);
   file.write("distribution,order,amplitude,amplitude_without_bins,direction_rad\n");
   for (const Rose& rose : roses)
     for (const Harmonic& h : rose.fit.harmonics)
@@ -74,7 +74,7 @@ void write_fits(const std::string& path, const std::vector<Rose>& roses, int bin
 }
 
 void write_sphere(const std::string& path, const Sums& sums, const SphericalGrid& grid) {
-  SafeFile file(path, kWho);
+  SafeFile file(path, kRose);
   file.write(
       "cos_polar_low,cos_polar_high,azimuth_low_rad,azimuth_high_rad,solid_angle_sr,contacts,"
       "contact_density_per_sr,contact_fit_per_sr,normal_force_density_per_sr,normal_force_fit_per_sr\n");
@@ -93,7 +93,7 @@ void write_sphere(const std::string& path, const Sums& sums, const SphericalGrid
   file.commit();
 }
 
-void print_fits(const Sums& sums, const Options& options, const std::vector<Rose>& roses) {
+void print_fits(const Sums& sums, const RoseOptions& options, const std::vector<Rose>& roses) {
   fmt::print("{}; plane {}, {} bins; angles from {} towards {}\n",
              sums.snapshots == 1
                  ? fmt::format("step {}, {:.0f} contacts", sums.step, sums.contacts)
@@ -119,11 +119,11 @@ void print_fits(const Sums& sums, const Options& options, const std::vector<Rose
 }
 
 /// Reads up to what --step asks for and sums it up.
-Sums gathered(Options& options, const SphericalGrid& grid) {
+Sums gathered(RoseOptions& options, const SphericalGrid& grid) {
   const bool all = options.step == "all", last = options.step == "last", first = options.step == "first";
   std::int64_t wanted = 0;
   if (!all && !last && !first && !parse_integer(options.step, wanted))
-    throw_user_error({kWho, "--step", options.step, "be first, last, all or the number of a step", ""});
+    throw_user_error({kRose, "--step", options.step, "be first, last, all or the number of a step", ""});
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   Sums sums;
   Snapshot snapshot;
@@ -136,54 +136,54 @@ Sums gathered(Options& options, const SphericalGrid& grid) {
   }
   if (last) sums.add(snapshot.packing, options, grid);
   if (!found)
-    throw_user_error({kWho, "--step", options.step, "be a step of the files",
+    throw_user_error({kRose, "--step", options.step, "be a step of the files",
                       "the last one is " + std::to_string(sums.step)});
   if (sums.contacts == 0)
     throw UserError(fmt::format("rose: step {} has no contacts; take a later one (--step)", sums.step));
   return sums;
 }
 
-void check(const Options& options) {
+void check(const RoseOptions& options) {
   plane_of(options.plane);
   if (options.bins < 8 || options.bins % 2 != 0 || options.bins > 3600)
-    throw_user_error({kWho, "--bins", std::to_string(options.bins), "be even, 8 to 3600",
+    throw_user_error({kRose, "--bins", std::to_string(options.bins), "be even, 8 to 3600",
                       "opposite directions share their contacts"});
   if (options.order < 2 || options.order % 2 != 0 || options.order >= options.bins / 2)
     throw_user_error(
-        {kWho, "--order", std::to_string(options.order), "be even, from 2 to below half of the bins", ""});
+        {kRose, "--order", std::to_string(options.order), "be even, from 2 to below half of the bins", ""});
   if (options.cells < 6 || options.cells > 1'000'000)
-    throw_user_error({kWho, "--cells", std::to_string(options.cells), "be 6 to 1000000", ""});
+    throw_user_error({kRose, "--cells", std::to_string(options.cells), "be 6 to 1000000", ""});
   if (!options.figure.empty() && options.output.empty())
     throw_user_error(
-        {kWho, "--figure", options.figure, "have a CSV file to be drawn from", "add --output FILE.csv"});
+        {kRose, "--figure", options.figure, "have a CSV file to be drawn from", "add --output FILE.csv"});
   if (!options.sphere_figure.empty() && options.sphere.empty())
-    throw_user_error({kWho, "--sphere-figure", options.sphere_figure, "have a CSV file to be drawn from",
+    throw_user_error({kRose, "--sphere-figure", options.sphere_figure, "have a CSV file to be drawn from",
                       "add --sphere FILE.csv"});
 }
 
-void run(Options& options) {
+void run(RoseOptions& options) {
   check(options);
-  options.outputs.require_new(kWho);
+  options.outputs.require_new(kRose);
   const SphericalGrid grid(options.cells);
   const Sums sums = gathered(options, grid);
   const std::vector<Rose> roses = roses_of(sums.plane, options.order);
-  if (!options.output.empty()) write_rose(options.output, sums.plane, roses, kWho);
+  if (!options.output.empty()) write_rose(options.output, sums.plane, roses, kRose);
   if (!options.fits.empty()) write_fits(options.fits, roses, options.bins);
   if (!options.sphere.empty()) write_sphere(options.sphere, sums, grid);
   print_fits(sums, options, roses);
   std::fflush(stdout);
   if (!options.figure.empty())
-    make_figure("rose.py", {options.output, "--plane", options.plane, "--output", options.figure}, kWho);
+    make_figure("rose.py", {options.output, "--plane", options.plane, "--output", options.figure}, kRose);
   if (!options.sphere_figure.empty())
-    make_figure("rose.py", {"--sphere", options.sphere, "--output", options.sphere_figure}, kWho);
+    make_figure("rose.py", {"--sphere", options.sphere, "--output", options.sphere_figure}, kRose);
 }
 
 }  // namespace
 
 void add_rose(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RoseOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho, "Orientation of contacts and forces: rose diagram, Fourier fits, spherical histogram");
+      kRose, "Orientation of contacts and forces: rose diagram, Fourier fits, spherical histogram");
   options->read.add_to(*command);
   command->add_option("--plane", options->plane, "xy, xz or yz; angles run from the first axis to the second")
       ->capture_default_str();

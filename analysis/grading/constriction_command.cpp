@@ -24,9 +24,9 @@ using micromechanics::FractionBy;
 using micromechanics::LoosePore;
 using micromechanics::SizeDistribution;
 
-constexpr const char* kWho = "constriction";
+constexpr const char* kConstriction = "constriction";
 
-struct Options {
+struct ConstrictionRequest {
   OutputOptions outputs;
   std::string grading, packing, output, distribution, prediction, discs;
   std::string fractions = "surface-area", pore = "inscribed";
@@ -43,15 +43,16 @@ void write_discs(SafeFile& file, const PackingConstrictions& found) {
                            one.normal.x(), one.normal.y(), one.normal.z(), one.diameter));
 }
 
-PackingConstrictions measure_packing(const Options& options, std::string& text) {
-  GrainSnapshot snapshot = read_grain_snapshot(options.packing, kWho, true, options.step);
+PackingConstrictions measure_packing(const ConstrictionRequest& options, std::string& text) {
+  GrainSnapshot snapshot = read_grain_snapshot(options.packing, kConstriction, true, options.step);
   const std::size_t all = snapshot.grains.size();
   std::erase_if(snapshot.grains,
                 [&](const Sphere& grain) { return 2 * grain.radius < options.coarser_than; });
   const PackingConstrictions found =
       packing_constrictions(snapshot.grains, snapshot.box, options.merge_overlap);
   if (found.constrictions.empty())
-    throw_user_error({kWho, options.packing, "no constriction", "have pores between its grains", ""});
+    throw_user_error(
+        {kConstriction, options.packing, "no constriction", "have pores between its grains", ""});
   text = fmt::format(
       "packing at step {}: {} of {} grains, {} cells, {} pores, {} constrictions, {} closed faces\n",
       snapshot.step, snapshot.grains.size(), all, found.cells, found.pore_diameters.size(),
@@ -71,7 +72,7 @@ std::string sizes_text(const char* of, double d0, double d35, double d50, double
       1e6 * d0, 1e6 * d35, 1e6 * d50, 1e6 * d100);
 }
 
-std::string analysis_text(const ConstrictionAnalysis& analysis, const Options& options) {
+std::string analysis_text(const ConstrictionAnalysis& analysis, const ConstrictionRequest& options) {
   const auto at = [&](double share) { return analysis.sizes.at(share, options.analysis.relative_density); };
   ConstrictionOptions other = options.analysis;
   other.pore = other.pore == LoosePore::inscribed ? LoosePore::equal_area : LoosePore::inscribed;
@@ -87,32 +88,33 @@ std::string analysis_text(const ConstrictionAnalysis& analysis, const Options& o
                      controlling / analysis.largest_erodible);
 }
 
-void check(Options& options) {
+void check(ConstrictionRequest& options) {
   if (options.grading.empty() && options.packing.empty())
-    throw_user_error({kWho, "PSD", "nothing", "be given, or --packing", "see --help"});
+    throw_user_error({kConstriction, "PSD", "nothing", "be given, or --packing", "see --help"});
   if (options.grading.empty() && !(options.output.empty() && options.prediction.empty()))
-    throw_user_error({kWho, "--output, --prediction", "without a PSD", "have a grading to judge",
+    throw_user_error({kConstriction, "--output, --prediction", "without a PSD", "have a grading to judge",
                       "give one before --packing"});
   if (options.packing.empty() && !options.discs.empty())
-    throw_user_error({kWho, "--discs", options.discs, "have a packing", "give --packing"});
+    throw_user_error({kConstriction, "--discs", options.discs, "have a packing", "give --packing"});
   options.analysis.fractions = fraction_names().at(options.fractions);
   options.analysis.pore = pore_names().at(options.pore);
   if (options.analysis.classes < 2 || options.analysis.classes > 40)
-    throw_user_error({kWho, "--classes", fmt::format("{}", options.analysis.classes), "be 2 to 40", ""});
+    throw_user_error(
+        {kConstriction, "--classes", fmt::format("{}", options.analysis.classes), "be 2 to 40", ""});
 }
 
-void run(Options& options) {
+void run(ConstrictionRequest& options) {
   check(options);
-  options.outputs.require_new(kWho);
+  options.outputs.require_new(kConstriction);
   micromechanics::ConstrictionLimits limits;
   micromechanics::StabilityLimits stability;
-  set_limits(options.limits, kWho, stability, &limits);
+  set_limits(options.limits, kConstriction, stability, &limits);
   std::optional<micromechanics::Grading> grading;
   std::optional<ConstrictionAnalysis> analysis;
   std::vector<micromechanics::CriterionResult> results;
   std::string text;
   if (!options.grading.empty()) {
-    grading = grading_of_file(options.grading, kWho);
+    grading = grading_of_file(options.grading, kConstriction);
     analysis = micromechanics::analyse_constrictions(*grading, options.analysis, limits, stability);
     results = micromechanics::constriction_criteria(*analysis, options.analysis, limits);
     text = grading_text(*grading) + analysis_text(*analysis, options) + "\n" + criteria_text(results);
@@ -142,7 +144,7 @@ void run(Options& options) {
   fmt::print("{}", text);
 }
 
-void add_grading_options(CLI::App& command, Options& options) {
+void add_grading_options(CLI::App& command, ConstrictionRequest& options) {
   std::vector<std::string> fractions, pores;
   for (const auto& [name, value] : fraction_names()) fractions.push_back(name);
   for (const auto& [name, value] : pore_names()) pores.push_back(name);
@@ -169,9 +171,9 @@ void add_grading_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_constriction(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConstrictionRequest>();
   CLI::App* command = app.add_subcommand(
-      kWho, "Constriction sizes of a grading or of an actual packing, and the criteria on them");
+      kConstriction, "Constriction sizes of a grading or of an actual packing, and the criteria on them");
   add_grading_options(*command, *options);
   CLI::Option* packing = command->add_option(
       "--packing", options->packing, "dump of grains with x y z radius: constrictions of the packing itself");

@@ -12,19 +12,19 @@
 namespace suffuse::analysis {
 namespace {
 
-constexpr const char* kWho = "grading";
+constexpr const char* kGrading = "grading";
 
-struct Options {
+struct GradingOptions {
   OutputOptions outputs;
   std::string file, output, curve, shape;
   std::vector<std::string> limits;
 };
 
-void run(const Options& options) {
-  options.outputs.require_new(kWho);
+void run(const GradingOptions& options) {
+  options.outputs.require_new(kGrading);
   micromechanics::StabilityLimits limits;
-  set_limits(options.limits, kWho, limits);
-  const micromechanics::Grading grading = grading_of_file(options.file, kWho);
+  set_limits(options.limits, kGrading, limits);
+  const micromechanics::Grading grading = grading_of_file(options.file, kGrading);
   const auto results = micromechanics::grading_criteria(grading, limits);
   std::optional<SafeFile> output, curve, shape;
   if (!options.output.empty()) write_criteria(output.emplace(options.output, "grading --output"), results);
@@ -38,9 +38,9 @@ void run(const Options& options) {
 }  // namespace
 
 void add_grading(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<GradingOptions>();
   CLI::App* command =
-      app.add_subcommand(kWho, "Particle size distribution: sizes, Cu, Cc, gap, and the criteria on it");
+      app.add_subcommand(kGrading, "Particle size distribution: sizes, Cu, Cc, gap, and the criteria on it");
   command
       ->add_option(
           "PSD", options->file,

@@ -15,20 +15,21 @@
 namespace suffuse::analysis {
 namespace {
 
-constexpr const char* kWho = "hydraulic";
+constexpr const char* kHydraulic = "hydraulic";
 
-struct Options {
+struct HydraulicOptions {
   OutputOptions outputs;
   std::string file, output;
   HydraulicInput input;
   std::optional<double> alpha;
 };
 
-void run(Options& options) {
-  options.outputs.require_new(kWho);
+void run(HydraulicOptions& options) {
+  options.outputs.require_new(kHydraulic);
   if (options.alpha) options.input.alphas = {{*options.alpha, ""}};
-  check_hydraulic(options.input, kWho);
-  const std::vector<HydraulicRow> rows = hydraulic_rows(options.input, grading_of_file(options.file, kWho));
+  check_hydraulic(options.input, kHydraulic);
+  const std::vector<HydraulicRow> rows =
+      hydraulic_rows(options.input, grading_of_file(options.file, kHydraulic));
   if (!options.output.empty()) {
     SafeFile file(options.output, "hydraulic --output");
     file.write("quantity,symbol,value,unit,source,note\n");
@@ -47,9 +48,9 @@ void run(Options& options) {
 }  // namespace
 
 void add_hydraulic(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<HydraulicOptions>();
   CLI::App* command =
-      app.add_subcommand(kWho, "Critical gradients and conductivities of a soil, without a run");
+      app.add_subcommand(kHydraulic, "Critical gradients and conductivities of a soil, without a run");
   command->add_option("PSD", options->file, "grading: CSV file or dump of grains, as in `grading`")
       ->required();
   command->add_option("--porosity", options->input.porosity, "of the soil")->required();

@@ -21,9 +21,9 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "sample";
+constexpr const char* kSample = "sample";
 
-struct Options {
+struct SampleOptions {
   std::string grading, output = "sample", name, grains;
   std::optional<double> smallest, solid_fraction, split;
   double coarse = 500, scale = 1, affordable = 150000;
@@ -36,25 +36,26 @@ struct Options {
 };
 
 /// `--grains`: a number, or `thesis` and none, as many as --coarse takes but for the thesis's samples.
-double grains_wanted(const Options& options, const std::optional<NamedGrading>& named, double for_coarse) {
+double grains_wanted(const SampleOptions& options, const std::optional<NamedGrading>& named,
+                     double for_coarse) {
   if (options.grains.empty()) return std::ceil(for_coarse);
   if (options.grains == "thesis") return named ? named->thesis_grains : std::ceil(for_coarse);
   double grains = 0;
   if (!parse_number(std::string_view(options.grains), grains) || !(grains >= 2 && grains <= 1e9))
-    throw_user_error({kWho, "--grains", options.grains, "be 2 to 1e9, or thesis", ""});
+    throw_user_error({kSample, "--grains", options.grains, "be 2 to 1e9, or thesis", ""});
   return std::round(grains);
 }
 
 /// m: beyond them it is another length unit.
 constexpr double kSmallestGrain = 1e-9, kLargestGrain = 1e3;
 
-void check(const Options& options) {
+void check(const SampleOptions& options) {
   if (std::filesystem::path(options.output).filename().empty())
-    throw_user_error({kWho, "--output", options.output.empty() ? "nothing" : options.output,
+    throw_user_error({kSample, "--output", options.output.empty() ? "nothing" : options.output,
                       "be the beginning of files' names", "for example samples/b20"});
   const auto must = [](bool fine, const char* option, double value, const char* rule,
                        const char* remedy = "") {
-    if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, remedy});
+    if (!fine) throw_user_error({kSample, option, fmt::format("{:g}", value), rule, remedy});
   };
   if (options.smallest) must(*options.smallest > 0, "--smallest", *options.smallest, "be > 0", "in m");
   if (options.split) must(*options.split > 0, "--split", *options.split, "be > 0", "in m");
@@ -65,14 +66,14 @@ void check(const Options& options) {
   if (options.box_height) {
     must(*options.box_height > 0, "--box-height", *options.box_height, "be > 0", "in m");
     if (!options.box_edge)
-      throw_user_error({kWho, "--box-height", "without --box-edge", "go with it", "give both, in m"});
+      throw_user_error({kSample, "--box-height", "without --box-edge", "go with it", "give both, in m"});
   }
   must(options.density > 0, "--density", options.density, "be > 0");
   must(options.coarse >= 1 && options.coarse <= 1e9, "--coarse", options.coarse, "be 1 to 1e9");
   must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
   must(options.affordable >= 1, "--affordable", options.affordable, "be >= 1");
   if (options.classes < 2 || options.classes > 200)
-    throw_user_error({kWho, "--classes", fmt::format("{}", options.classes), "be 2 to 200", ""});
+    throw_user_error({kSample, "--classes", fmt::format("{}", options.classes), "be 2 to 200", ""});
 }
 
 /// The size between fines and coarse grains, and why; of the grading as it is, before --scale.
@@ -81,7 +82,8 @@ struct Split {
   std::string why;
 };
 
-Split split_of(const Grading& grading, const std::vector<GradingClass>& classes, const Options& options) {
+Split split_of(const Grading& grading, const std::vector<GradingClass>& classes,
+               const SampleOptions& options) {
   Split split{options.split.value_or(0), "given"};
   if (!options.split) {
     if (const auto& gap = grading.gap()) {
@@ -97,7 +99,7 @@ Split split_of(const Grading& grading, const std::vector<GradingClass>& classes,
     }
   }
   if (classes.back().diameter < split.diameter)
-    throw_user_error({kWho, "--split", fmt::format("{:g} m", split.diameter),
+    throw_user_error({kSample, "--split", fmt::format("{:g} m", split.diameter),
                       fmt::format("be below the largest grain, {:g} m", classes.back().diameter), ""});
   return split;
 }
@@ -112,8 +114,8 @@ struct Plan {
   double box_edge = 0;
 };
 
-Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
-  Grading grading = grading_of_file(options.grading, kWho);
+Plan plan_of(const SampleOptions& options, const std::optional<NamedGrading>& named) {
+  Grading grading = grading_of_file(options.grading, kSample);
   Plan plan{grading, 0, {}, {}, 0, {}, 0};
   if (options.smallest) {
     CutGrading cut = cut_below(grading, *options.smallest);
@@ -121,7 +123,7 @@ Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
     plan.lost = cut.lost;
   } else if (grading.unknown_below() > 0) {
     throw_user_error(
-        {kWho, options.grading, curve_end(grading), "be known down to its smallest grain",
+        {kSample, options.grading, curve_end(grading), "be known down to its smallest grain",
          fmt::format("cut it there with --smallest {:.4g}, or add a row with the smallest size and 0",
                      grading.smallest())});
   }
@@ -131,7 +133,7 @@ Plan plan_of(const Options& options, const std::optional<NamedGrading>& named) {
   const double wanted = grains_wanted(options, named, plan.for_coarse);
   for (GradingClass& one : plan.classes) one.diameter *= options.scale;
   if (plan.classes.front().diameter < kSmallestGrain || plan.classes.back().diameter > kLargestGrain)
-    throw_user_error({kWho, "--scale", fmt::format("{:g}", options.scale),
+    throw_user_error({kSample, "--scale", fmt::format("{:g}", options.scale),
                       fmt::format("leave grains of {:g} to {:g} m, not of {:.3g} to {:.3g} m", kSmallestGrain,
                                   kLargestGrain, plan.classes.front().diameter, plan.classes.back().diameter),
                       ""});
@@ -151,7 +153,7 @@ struct Cut {
 /// The least size up to `high`, m, from which on the classes of the grading need at most so many grains; none
 /// where that cut does not help.
 template <class Need>
-std::optional<Cut> least_cut(const Options& options, const Plan& plan, double high, double grains,
+std::optional<Cut> least_cut(const SampleOptions& options, const Plan& plan, double high, double grains,
                              const Need& need) {
   const auto need_from = [&](double smallest) {
     return need(sample_classes(cut_below(plan.grading, smallest).grading, options.classes));
@@ -166,7 +168,7 @@ std::optional<Cut> least_cut(const Options& options, const Plan& plan, double hi
 }
 
 /// Sizes of which the sample has less than one grain: what they are of the mass, and what would hold them.
-std::string rare_sizes_text(const Options& options, const Plan& plan) {
+std::string rare_sizes_text(const SampleOptions& options, const Plan& plan) {
   std::size_t rare = 0;
   double mass = 0;
   for (const SampleClass& one : plan.sample.classes)
@@ -188,7 +190,7 @@ std::string rare_sizes_text(const Options& options, const Plan& plan) {
   return text + "; fewer --classes help too\n";
 }
 
-std::string notes_of(const Options& options, const Plan& plan) {
+std::string notes_of(const SampleOptions& options, const Plan& plan) {
   const double largest = plan.classes.back().diameter, smallest = plan.classes.front().diameter;
   std::string text;
   if (plan.lost > 0)
@@ -217,7 +219,7 @@ std::string notes_of(const Options& options, const Plan& plan) {
   return text + rare_sizes_text(options, plan);
 }
 
-std::string screen_text(const Options& options, const Plan& plan) {
+std::string screen_text(const SampleOptions& options, const Plan& plan) {
   const GrainSample& sample = plan.sample;
   std::string text = fmt::format("{:>12}  {:>9}  {:>10}\n", "diameter mm", "mass %", "grains");
   for (const SampleClass& one : sample.classes)
@@ -232,18 +234,18 @@ std::string screen_text(const Options& options, const Plan& plan) {
 }
 
 /// The files that a run writes: STEM and their ends.
-std::vector<std::string> files_of(const Options& options) {
+std::vector<std::string> files_of(const SampleOptions& options) {
   std::vector<std::string> files{options.output + ".inc"};
   if (!options.variables_only)
     for (const char* end : {"_templates.inc", ".csv", ".data"}) files.push_back(options.output + end);
   return files;
 }
 
-void run(const Options& options) {
+void run(const SampleOptions& options) {
   check(options);
-  options.outputs.require_new(kWho, files_of(options));
+  options.outputs.require_new(kSample, files_of(options));
   const std::optional<NamedGrading> named =
-      std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kWho);
+      std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kSample);
   const Plan plan = plan_of(options, named);
   SampleScript script{"",
                       plan.sample,
@@ -267,7 +269,7 @@ void run(const Options& options) {
     constexpr double least_share = 1e-6;
     const double volume = std::pow(*options.box_edge, 2) * options.box_height.value_or(*options.box_edge);
     if (!(plan.sample.solids / volume > least_share))
-      throw_user_error({kWho, "--box-edge", fmt::format("{:g} m", *options.box_edge),
+      throw_user_error({kSample, "--box-edge", fmt::format("{:g} m", *options.box_edge),
                         fmt::format("be below {:.3g} m: the grains fill a millionth of such a cube",
                                     std::cbrt(plan.sample.solids / least_share)),
                         ""});
@@ -293,9 +295,9 @@ void run(const Options& options) {
 }  // namespace
 
 void add_sample(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SampleOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho, "From a grading to grains for a simulation: classes, counts, box, LIGGGHTS templates");
+      kSample, "From a grading to grains for a simulation: classes, counts, box, LIGGGHTS templates");
   command
       ->add_option("PSD", options->grading,
                    "grading: CSV file or dump of grains, as in `grading`, or a name such as B20")

@@ -27,9 +27,9 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "fluidisation";
+constexpr const char* kFluidisation = "fluidisation";
 
-struct Options : SeepageOptions {
+struct FluidisationOptions : SeepageOptions {
   ResultOutputs outputs;
   std::string file, grading, onset;
   std::vector<double> window{0.2, 0.8};
@@ -38,11 +38,11 @@ struct Options : SeepageOptions {
   LayerOptions layers;
 };
 
-void check(const Options& options) {
+void check(const FluidisationOptions& options) {
   const auto must = [](bool fine, const char* option, double value, const char* rule) {
-    if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, ""});
+    if (!fine) throw_user_error({kFluidisation, option, fmt::format("{:g}", value), rule, ""});
   };
-  options.check(kWho);
+  options.check(kFluidisation);
   must(options.window[0] >= 0 && options.window[0] < options.window[1], "--window", options.window[0],
        "be LOW HIGH, 0 <= LOW < HIGH");
   must(options.settings.rise_share > 0 && options.settings.rise_share < 1, "--rise",
@@ -55,7 +55,7 @@ void check(const Options& options) {
   const bool writes =
       !options.layers.measures.empty() || !options.layers.distributions.empty() || !options.onset.empty();
   if (writes && options.layers.files.empty())
-    throw_user_error({kWho, "--measures, --distributions, --onset", "without --dumps",
+    throw_user_error({kFluidisation, "--measures, --distributions, --onset", "without --dumps",
                       "have dumps to be made from", "add --dumps 'grains.*.dump' 'contacts.*.dump'"});
 }
 
@@ -80,9 +80,9 @@ std::vector<Hold> stages_of(const FlowRecord& record) {
   return holds.size() >= 3 && 2 * held > record.driving.size() ? holds : std::vector<Hold>{};
 }
 
-Run measured(const Options& options, const NumberTable& table) {
+Run measured(const FluidisationOptions& options, const NumberTable& table) {
   Run run;
-  run.record = flow_record(table, kWho, options.height);
+  run.record = flow_record(table, kFluidisation, options.height);
   if (options.porosity) run.record.porosity = *options.porosity;
   const auto& samples = run.record.states;
   const std::vector<Hold> holds = stages_of(run.record);
@@ -119,7 +119,7 @@ std::string distance(const Run& run, double value) {
   return text;
 }
 
-void add_state_at_rest(ResultRows& rows, const Run& run, const Options& options) {
+void add_state_at_rest(ResultRows& rows, const Run& run, const FluidisationOptions& options) {
   rows.add("porosity at rest", "n", run.record.porosity, "-",
            options.porosity ? "--porosity" : "first sample", "");
   rows.add("height at rest", "H", 1e3 * run.record.height, "mm", options.height ? "--height" : "first sample",
@@ -127,13 +127,13 @@ void add_state_at_rest(ResultRows& rows, const Run& run, const Options& options)
                           : fmt::format("ramp, {} samples", run.states.size()));
 }
 
-void add_conductivity(ResultRows& rows, const Run& run, const Options& options) {
+void add_conductivity(ResultRows& rows, const Run& run, const FluidisationOptions& options) {
   const LineFit& line = run.result.flow;
   rows.add("conductivity, measured", "k", line.slope, "m/s", "line of v over i",
            fmt::format("{} states at i = {:g} to {:g} of Terzaghi's; standard error {:.2g} %", line.points,
                        options.window[0], options.window[1], 100 * line.slope_error / line.slope));
   if (options.grading.empty()) return;
-  const Grading grading = grading_of_file(options.grading, kWho);
+  const Grading grading = grading_of_file(options.grading, kFluidisation);
   const GradingIndices sizes = grading_indices(grading);
   const double kozeny = conductivity_carman_kozeny(sizes.sauter, run.record.porosity, options.fluid);
   const auto unknown = [&](const char* name, const char* symbol, const char* source) {
@@ -167,13 +167,14 @@ std::pair<double, double> onset_gradient(const Run& run) {
 }
 
 /// Appendix C's soil, by its Sauter size: what the thesis found holds for no other.
-bool is_soil_of_thesis(const Options& options) {
+bool is_soil_of_thesis(const FluidisationOptions& options) {
   if (options.grading.empty()) return false;
   constexpr double sauter = 3.478e-4;  // m
-  return std::abs(grading_indices(grading_of_file(options.grading, kWho)).sauter / sauter - 1) < 0.02;
+  return std::abs(grading_indices(grading_of_file(options.grading, kFluidisation)).sauter / sauter - 1) <
+         0.02;
 }
 
-void add_critical_gradients(ResultRows& rows, const Run& run, const Options& options) {
+void add_critical_gradients(ResultRows& rows, const Run& run, const FluidisationOptions& options) {
   const Fluidisation& result = run.result;
   rows.add("critical gradient, Terzaghi", "i_cr", run.terzaghi, "-", "terzaghi1943",
            "(rho_s/rho_f - 1)(1 - n) at the measured porosity");
@@ -250,7 +251,7 @@ void add_contact_network(ResultRows& rows, const Run& run, const NumberTable& ta
   }
 }
 
-void add_layers(ResultRows& rows, const Run& run, const Options& options) {
+void add_layers(ResultRows& rows, const Run& run, const FluidisationOptions& options) {
   for (std::size_t k = 0; k < run.result.layers.size(); ++k) {
     const LayerFluidisation& layer = run.result.layers[k];
     LayerRow row;
@@ -267,7 +268,7 @@ void add_layers(ResultRows& rows, const Run& run, const Options& options) {
   }
 }
 
-void write_onset(const Options& options, const Run& run, const LayerResults& layers) {
+void write_onset(const FluidisationOptions& options, const Run& run, const LayerResults& layers) {
   OnsetOfRun onset;
   if (const auto variance = layer_variance(run.record))
     onset.variance = run.record.layers_on_floor ? variance->upper : variance->all;
@@ -288,7 +289,7 @@ std::optional<double> onset_step(const Run& run, const NumberTable& table) {
   return (*steps)[run.sample_of_state[run.result.onset->state - 1]];
 }
 
-ResultRows rows_of(const Options& options, const Run& run, const NumberTable& table) {
+ResultRows rows_of(const FluidisationOptions& options, const Run& run, const NumberTable& table) {
   ResultRows rows;
   add_state_at_rest(rows, run, options);
   add_homogeneity(rows, run);
@@ -315,10 +316,10 @@ Record variables_of(const Run& run, const NumberTable& table) {
           {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
 }
 
-void run_command(Options& options) {
+void run_command(FluidisationOptions& options) {
   check(options);
-  options.outputs.require_new(kWho);
-  const NumberTable table(options.file, kWho);
+  options.outputs.require_new(kFluidisation);
+  const NumberTable table(options.file, kFluidisation);
   const Run run = measured(options, table);
   const ResultRows rows = rows_of(options, run, table);
   std::string layers;
@@ -327,7 +328,7 @@ void run_command(Options& options) {
     if (!options.onset.empty()) write_onset(options, run, results);
     layers = std::move(results.text);
   }
-  options.outputs.write(rows, kWho, [&] { return variables_of(run, table); });
+  options.outputs.write(rows, kFluidisation, [&] { return variables_of(run, table); });
   fmt::print("{}{}", rows.text(), layers);
 }
 
@@ -335,19 +336,20 @@ void run_command(Options& options) {
 
 ResultRows fluidisation_rows(const std::string& flow, const std::string& grading, double grain_density,
                              const SeepageFluid& fluid) {
-  Options options;
+  FluidisationOptions options;
   options.grading = grading;
   options.grain_density = grain_density;
   options.fluid = fluid;
   check(options);
-  const NumberTable table(flow, kWho);
+  const NumberTable table(flow, kFluidisation);
   return rows_of(options, measured(options, table), table);
 }
 
 void add_fluidisation(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FluidisationOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho, "Porosity, conductivity, critical gradients of an upward-flow run, from its monitor file");
+      kFluidisation,
+      "Porosity, conductivity, critical gradients of an upward-flow run, from its monitor file");
   command->add_option("FLOW", options->file, "CSV file of `lbm monitor`")->required();
   command->add_option("--grading,--grains", options->grading,
                       "grading: CSV file, or dump of the grains; for the formulas of conductivity");

@@ -19,7 +19,7 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "fluidisation";
+constexpr const char* kFluidisationLayers = "fluidisation";
 
 /// A column of the record at a step, straight between samples.
 double at_step(const std::vector<double>& steps, const std::vector<double>& values, double step) {
@@ -85,8 +85,8 @@ HeightLayers layers_of(const LayerOptions& options, const NumberTable& table, co
   if (options.bounds.empty()) {
     const auto* height = table.find("layers_height_m");
     if (!height)
-      throw_user_error(
-          {kWho, table.path(), "no column layers_height_m", "have it", "or give --bounds LOW HIGH"});
+      throw_user_error({kFluidisationLayers, table.path(), "no column layers_height_m", "have it",
+                        "or give --bounds LOW HIGH"});
     const auto* top = table.find("layers_top_m");
     layers.high = (top ? top : height)->front();
     if (const auto* floor = table.find("layers_floor_m")) layers.low = floor->front();
@@ -95,8 +95,8 @@ HeightLayers layers_of(const LayerOptions& options, const NumberTable& table, co
     layers.high = options.bounds[1];
   }
   if (!(layers.high > layers.low))
-    throw_user_error(
-        {kWho, "--bounds", fmt::format("{:g} {:g}", layers.low, layers.high), "be LOW HIGH, LOW < HIGH", ""});
+    throw_user_error({kFluidisationLayers, "--bounds", fmt::format("{:g} {:g}", layers.low, layers.high),
+                      "be LOW HIGH, LOW < HIGH", ""});
   return layers;
 }
 
@@ -213,7 +213,7 @@ LayerResults layer_measures(const LayerOptions& options, const NumberTable& tabl
   const StepRecord steps(table, record);
   const HeightLayers layers = layers_of(options, table, record);
   ReadSettings settings;
-  settings.who = kWho;
+  settings.who = kFluidisationLayers;
   settings.friction = options.friction;
   const std::unique_ptr<SnapshotSeries> series = open_series(options.files, settings);
   Files files(options);
@@ -248,7 +248,8 @@ LayerResults layer_measures(const LayerOptions& options, const NumberTable& tabl
     latest = std::move(measured);
   }
   if (!at_rest)
-    throw_user_error({kWho, "--dumps", "no snapshot", fmt::format("be from the steps of {}", table.path()),
+    throw_user_error({kFluidisationLayers, "--dumps", "no snapshot",
+                      fmt::format("be from the steps of {}", table.path()),
                       "give grains and contacts of the same run"});
   files.commit();
   if (at_onset && at_onset->step <= at_rest->step) at_onset.reset();

@@ -18,21 +18,21 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "lifting";
+constexpr const char* kLifting = "lifting";
 
-struct Options : SeepageOptions {
+struct LiftingOptions : SeepageOptions {
   ResultOutputs outputs;
   std::string file;
   double diameter = 0;
   std::vector<double> window{0.2, 0.7};
 };
 
-void check(const Options& options) {
+void check(const LiftingOptions& options) {
   const auto must = [](bool fine, const char* option, double value, const char* rule) {
-    if (!fine) throw_user_error({kWho, option, fmt::format("{:g}", value), rule, ""});
+    if (!fine) throw_user_error({kLifting, option, fmt::format("{:g}", value), rule, ""});
   };
   must(options.diameter > 0, "--diameter", options.diameter, "be > 0");
-  options.check(kWho);
+  options.check(kLifting);
   must(options.window[0] >= 0 && options.window[0] < options.window[1], "--window", options.window[0],
        "be LOW HIGH, 0 <= LOW < HIGH");
 }
@@ -43,16 +43,16 @@ void add_formula(ResultRows& rows, const char* name, double formula, double meas
            fmt::format("measured {:+.1f} % of it; {}", 100 * (measured / formula - 1), note));
 }
 
-void run(const Options& options) {
+void run(const LiftingOptions& options) {
   check(options);
-  options.outputs.require_new(kWho);
-  const NumberTable table(options.file, kWho);
+  options.outputs.require_new(kLifting);
+  const NumberTable table(options.file, kLifting);
   const std::vector<double>& weight = table.column("weight_pa");
   const double porosity = table.column("porosity_at_rest").front();
   std::vector<double> drop = table.column("pressure_drop_pa");
   if (!(weight.front() > 0))
-    throw_user_error({kWho, fmt::format("{}, weight_pa", table.path()), fmt::format("{:g}", weight.front()),
-                      "be > 0", ""});
+    throw_user_error({kLifting, fmt::format("{}, weight_pa", table.path()),
+                      fmt::format("{:g}", weight.front()), "be > 0", ""});
   for (double& value : drop) value /= weight.front();
   const Lifting lifting = measure_lifting(table.column("superficial_velocity_z_m_per_s"), drop,
                                           options.window[0], options.window[1]);
@@ -72,16 +72,16 @@ void run(const Options& options) {
   rows.add("pressure drop of the floating bed over the weight", "",
            lifting.floating > 0 ? std::optional(lifting.floating) : std::nullopt, "-", "mean beyond 1.3 v_mf",
            lifting.floating > 0 ? "" : "not reached");
-  options.outputs.write(rows, kWho);
+  options.outputs.write(rows, kLifting);
   fmt::print("{}", rows.text());
 }
 
 }  // namespace
 
 void add_lifting(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<LiftingOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho, "Least velocity of fluidisation from a record of pressure drop over velocity (scene 06)");
+      kLifting, "Least velocity of fluidisation from a record of pressure drop over velocity (scene 06)");
   command
       ->add_option("FLOW", options->file,
                    "CSV file of `lbm monitor`: superficial_velocity, pressure_drop_pa, weight_pa, "

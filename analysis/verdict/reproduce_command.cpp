@@ -22,14 +22,14 @@ using micromechanics::Grading;
 
 enum class Table { table_4_1, table_5_1 };
 
-struct Options {
+struct ReproduceOptions {
   OutputOptions outputs;
   std::vector<std::string> folders{"."};
   std::string output;
 };
 
 /// A number of a sample beside the thesis's.
-struct Quantity {
+struct Compared {
   const char* name;
   std::optional<double> measured, thesis;
 };
@@ -38,7 +38,7 @@ struct Quantity {
 struct Comparison {
   const ThesisRow* row = nullptr;
   SampleFolder sample;
-  std::vector<Quantity> quantities;
+  std::vector<Compared> quantities;
   std::string verdict, thesis_verdict;
 };
 
@@ -158,7 +158,7 @@ std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{:.5g}", *value) : "-";
 }
 
-std::optional<double> difference(const Quantity& quantity) {
+std::optional<double> difference(const Compared& quantity) {
   if (!quantity.measured || !quantity.thesis || *quantity.thesis == 0) return std::nullopt;
   return *quantity.measured / *quantity.thesis - 1;
 }
@@ -169,7 +169,7 @@ void print(const Comparison& comparison) {
   if (comparison.sample.youngs_modulus)
     fmt::print(", E = {:.3g} GPa", *comparison.sample.youngs_modulus / 1e9);
   fmt::print("\n  {:<22}{:>12}{:>12}{:>13}\n", "", "measured", "thesis", "difference");
-  for (const Quantity& quantity : comparison.quantities) {
+  for (const Compared& quantity : comparison.quantities) {
     const std::optional<double> relative = difference(quantity);
     fmt::print("  {:<22}{:>12}{:>12}{:>13}\n", quantity.name, number(quantity.measured),
                number(quantity.thesis), relative ? fmt::format("{:+.1f} %", 100 * *relative) : "");
@@ -206,7 +206,7 @@ void write_csv(const std::string& path, const std::vector<Comparison>& compariso
     return value ? full_precision(*value) : std::string();
   };
   for (const Comparison& comparison : comparisons)
-    for (const Quantity& quantity : comparison.quantities)
+    for (const Compared& quantity : comparison.quantities)
       file.write(fmt::format("{},{},\"{}\",{},{},{},{},{}\n", comparison.row->sample, comparison.row->state,
                              comparison.sample.folder, cell(comparison.sample.youngs_modulus), quantity.name,
                              cell(quantity.measured), cell(quantity.thesis), cell(difference(quantity))));
@@ -220,7 +220,7 @@ const ThesisRow* row_of(const std::vector<ThesisRow>& rows, const SampleFolder& 
   return nullptr;
 }
 
-void run(const Options& options, Table table) {
+void run(const ReproduceOptions& options, Table table) {
   const std::string who = table == Table::table_4_1 ? "reproduce table-4-1" : "reproduce table-5-1";
   const std::vector<ThesisRow>& rows = table == Table::table_4_1 ? thesis_table_4_1() : thesis_table_5_1();
   options.outputs.require_new(who);
@@ -262,7 +262,7 @@ void run(const Options& options, Table table) {
 }
 
 void add_table(CLI::App& parent, const char* name, const char* what, Table table) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReproduceOptions>();
   CLI::App* command = parent.add_subcommand(name, what);
   command
       ->add_option("folders", options->folders,

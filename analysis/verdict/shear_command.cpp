@@ -20,9 +20,9 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "shear";
+constexpr const char* kShear = "shear";
 
-struct Options {
+struct ShearOptions {
   OutputOptions outputs;
   std::vector<std::string> files;
   std::string output;
@@ -47,7 +47,7 @@ void leave_out_the_wait(ShearSeries& series) {
 }
 
 ShearSeries series_of(const std::string& path) {
-  const NumberTable table(path, kWho);
+  const NumberTable table(path, kShear);
   const auto if_there = [&](const char* name) {
     const std::vector<double>* column = table.find(name);
     return column != nullptr ? *column : std::vector<double>{};
@@ -118,23 +118,23 @@ std::vector<Row> rows_of(const ShearResponse& response) {
   return rows;
 }
 
-void run(const Options& options) {
-  options.outputs.require_new(kWho);
+void run(const ShearOptions& options) {
+  options.outputs.require_new(kShear);
   const auto in_range = [](const char* option, double value, double most) {
     if (!(value > 0) || !(value < most))
       throw_user_error(
-          {kWho, option, fmt::format("{:g}", value), fmt::format("be between 0 and {:g}", most), ""});
+          {kShear, option, fmt::format("{:g}", value), fmt::format("be between 0 and {:g}", most), ""});
   };
   in_range("--window", options.settings.window, 1);
   in_range("--constant", options.settings.constant, 1);
   in_range("--level", options.settings.level, 1);
   std::optional<SafeFile> csv;
   if (!options.output.empty()) {
-    csv.emplace(options.output, kWho);
+    csv.emplace(options.output, kShear);
     csv->write("series,quantity,value\n");
   }
   for (const std::string& file : options.files) {
-    const std::string who = fmt::format("{}: {}", kWho, file);
+    const std::string who = fmt::format("{}: {}", kShear, file);
     const std::vector<Row> rows = rows_of(shear_response(series_of(file), options.settings, who.c_str()));
     fmt::print("{}\n", file);
     for (const Row& row : rows) {
@@ -148,9 +148,9 @@ void run(const Options& options) {
 }  // namespace
 
 void add_shear(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShearOptions>();
   CLI::App* command =
-      app.add_subcommand(kWho, "Peaks, critical volume, stages of alpha and fabrics of shear tests");
+      app.add_subcommand(kShear, "Peaks, critical volume, stages of alpha and fabrics of shear tests");
   command
       ->add_option("files", options->files,
                    "time series of shear tests (shear.csv of 02, triaxial.csv of 08)")

@@ -19,11 +19,11 @@ namespace {
 
 using namespace micromechanics;
 
-constexpr const char* kWho = "suffusion";
+constexpr const char* kSuffusion = "suffusion";
 constexpr std::array<double, 3> kErodedShares{0.002, 0.01, 0.05};
 constexpr std::array<const char*, 3> kErodedNames{"onset_2_permille", "onset_1_percent", "onset_5_percent"};
 
-struct Options {
+struct SuffusionOptions {
   ResultOutputs outputs;
   std::string file;
 };
@@ -33,7 +33,7 @@ std::vector<SuffusionState> states_of(const NumberTable& table) {
   const auto fines = table.numbered("fines_share_layer_"),
              local = table.numbered("hydraulic_gradient_layer_");
   if (fines.empty() || fines.size() != local.size())
-    throw_user_error({kWho, table.path(),
+    throw_user_error({kSuffusion, table.path(),
                       fmt::format("{} columns fines_share_layer_N, {} hydraulic_gradient_layer_N",
                                   fines.size(), local.size()),
                       "have one of each for every layer", "see scene 09's `lbm monitor`"});
@@ -73,23 +73,23 @@ Record variables_of(const SuffusionOnset& onset) {
   return record;
 }
 
-void run(const Options& options) {
-  options.outputs.require_new(kWho);
-  const std::vector<SuffusionState> states = states_of(NumberTable(options.file, kWho));
+void run(const SuffusionOptions& options) {
+  options.outputs.require_new(kSuffusion);
+  const std::vector<SuffusionState> states = states_of(NumberTable(options.file, kSuffusion));
   const SuffusionOnset onset = suffusion_onset(states, kErodedShares);
   double largest = 0;
   for (const SuffusionState& state : states) largest = std::max(largest, state.gradient);
   const ResultRows rows = rows_of(onset, largest);
-  options.outputs.write(rows, kWho, [&] { return variables_of(onset); });
+  options.outputs.write(rows, kSuffusion, [&] { return variables_of(onset); });
   fmt::print("{}", rows.text());
 }
 
 }  // namespace
 
 void add_suffusion(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SuffusionOptions>();
   CLI::App* command =
-      app.add_subcommand(kWho, "Gradients at which fines leave a sample under seepage (scene 09)");
+      app.add_subcommand(kSuffusion, "Gradients at which fines leave a sample under seepage (scene 09)");
   command
       ->add_option("FLOW", options->file,
                    "CSV file of `lbm monitor`: applied_gradient, eroded_fines_share, fines_share_layer_N, "

@@ -26,12 +26,12 @@ namespace {
 namespace files = std::filesystem;
 using micromechanics::Grading;
 
-constexpr const char* kWho = "verdict";
+constexpr const char* kVerdict = "verdict";
 
 /// Beyond this share of pores grains do not rest on each other: loose frictional packings have 0.45.
 constexpr double kLoosestGrains = 0.6;
 
-struct Options {
+struct VerdictOptions {
   OutputOptions outputs;
   std::string grading, name, output, html, figures, flow;
   std::string fractions = "surface-area", pore = "inscribed";
@@ -64,27 +64,27 @@ class TemporaryFolder {
   files::path path_;
 };
 
-void check(const Options& options) {
+void check(const VerdictOptions& options) {
   const auto share = [](const std::optional<double>& value, const char* option, bool open) {
     if (value && !(open ? *value > 0 && *value < 1 : *value >= 0 && *value <= 1))
-      throw_user_error({kWho, option, fmt::format("{:g}", *value),
+      throw_user_error({kVerdict, option, fmt::format("{:g}", *value),
                         open ? "be between 0 and 1, ends excluded" : "be between 0 and 1",
                         "give a share, not per cent"});
   };
   if (options.grading.empty() && options.read.files.empty())
-    throw_user_error({kWho, "PSD", "nothing", "be given, or --sample", "see --help"});
+    throw_user_error({kVerdict, "PSD", "nothing", "be given, or --sample", "see --help"});
   share(options.porosity, "--porosity", true);
   share(options.relative_density, "--relative-density", false);
   share(options.constriction.split, "--cut", true);
   if (options.alpha && !(*options.alpha >= 0))
-    throw_user_error({kWho, "--alpha", fmt::format("{:g}", *options.alpha), "be >= 0", ""});
-  check_seepage_options(options.hydraulic, kWho);
+    throw_user_error({kVerdict, "--alpha", fmt::format("{:g}", *options.alpha), "be >= 0", ""});
+  check_seepage_options(options.hydraulic, kVerdict);
   if (options.no_figures && !options.figures.empty())
-    throw_user_error({kWho, "--figures", options.figures, "not stand beside --no-figures", ""});
+    throw_user_error({kVerdict, "--figures", options.figures, "not stand beside --no-figures", ""});
   if (!options.figures.empty() && files::exists(options.figures) && !files::is_directory(options.figures))
-    throw_user_error({kWho, "--figures", options.figures, "be a folder", "this is a file"});
+    throw_user_error({kVerdict, "--figures", options.figures, "be a folder", "this is a file"});
   if (!options.split.text.empty() && options.read.files.empty())
-    throw_user_error({kWho, "--split", options.split.text, "have a sample", "add --sample"});
+    throw_user_error({kVerdict, "--split", options.split.text, "have a sample", "add --sample"});
 }
 
 Grading grading_of_packing(const micromechanics::Packing& packing) {
@@ -94,10 +94,10 @@ Grading grading_of_packing(const micromechanics::Packing& packing) {
 }
 
 /// Which grains of the sample are the fines, and why.
-void choose_split(const Options& options, const VerdictInput& input, const micromechanics::Packing& packing,
-                  SampleFindings& sample) {
+void choose_split(const VerdictOptions& options, const VerdictInput& input,
+                  const micromechanics::Packing& packing, SampleFindings& sample) {
   std::string why;
-  if (const std::optional<double> given = options.split.value(packing, kWho)) {
+  if (const std::optional<double> given = options.split.value(packing, kVerdict)) {
     sample.split = *given;
     why = options.split.text == "gap" ? "in the widest gap of the sample's sizes" : "given";
   } else if (input.grading.gap()) {
@@ -110,7 +110,7 @@ void choose_split(const Options& options, const VerdictInput& input, const micro
             : micromechanics::thesis_split(input.grading, 0, input.constriction_limits, input.limits);
     sample.split = input.grading.diameter_at(split.finer);
     if (std::isnan(sample.split))
-      throw_user_error({kWho, "--split", "not given", "be, as " + curve_end(input.grading),
+      throw_user_error({kVerdict, "--split", "not given", "be, as " + curve_end(input.grading),
                         "the split between fines and coarse grains lies below that"});
     why = fmt::format("{:.3g} % of the grading, {}", 100 * split.finer, split.rule);
   }
@@ -128,7 +128,7 @@ std::string names_of(const std::vector<std::string>& paths) {
 
 /// The last snapshot; with a run of upward flow the first, in which the bed is at rest: its last one is
 /// lifted.
-std::optional<Snapshot> judged_snapshot(Options& options) {
+std::optional<Snapshot> judged_snapshot(VerdictOptions& options) {
   if (options.read.files.empty()) return std::nullopt;
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   Snapshot snapshot;
@@ -139,7 +139,7 @@ std::optional<Snapshot> judged_snapshot(Options& options) {
   }
   if (!found)
     throw_user_error(
-        {kWho, "--sample", options.read.files.front(), "hold a snapshot of grains and contacts", ""});
+        {kVerdict, "--sample", options.read.files.front(), "hold a snapshot of grains and contacts", ""});
   if (const std::string notes = series->notes(); !notes.empty())
     fmt::print(stderr, "suffuse-analyse: note: {}\n", notes);  // the report may go to the screen
   return snapshot;
@@ -147,12 +147,13 @@ std::optional<Snapshot> judged_snapshot(Options& options) {
 
 /// As given; else of the bed at rest where a run is given, whose box holds more than the bed; else of the
 /// sample.
-void find_porosity(const Options& options, const std::optional<Snapshot>& snapshot, VerdictInput& input) {
+void find_porosity(const VerdictOptions& options, const std::optional<Snapshot>& snapshot,
+                   VerdictInput& input) {
   input.porosity = options.porosity;
   input.porosity_from = "as given";
   if (input.porosity) return;
   if (!options.flow.empty()) {
-    input.porosity = flow_record(NumberTable(options.flow, kWho), kWho, std::nullopt).porosity;
+    input.porosity = flow_record(NumberTable(options.flow, kVerdict), kVerdict, std::nullopt).porosity;
     input.porosity_from = "of the bed at rest in " + names_of({options.flow});
   } else if (snapshot) {
     double solids = 0;
@@ -167,11 +168,11 @@ void find_porosity(const Options& options, const std::optional<Snapshot>& snapsh
   }
 }
 
-VerdictInput input_of(const Options& options, const std::optional<Snapshot>& snapshot) {
+VerdictInput input_of(const VerdictOptions& options, const std::optional<Snapshot>& snapshot) {
   VerdictInput input{options.name,
                      "",
                      options.grading.empty() ? grading_of_packing(snapshot->packing)
-                                             : grading_of_file(options.grading, kWho),
+                                             : grading_of_file(options.grading, kVerdict),
                      {},
                      {},
                      options.constriction,
@@ -181,7 +182,7 @@ VerdictInput input_of(const Options& options, const std::optional<Snapshot>& sna
                      options.hydraulic,
                      options.alpha,
                      options.flow};
-  set_limits(options.limits, kWho, input.limits, &input.constriction_limits);
+  set_limits(options.limits, kVerdict, input.limits, &input.constriction_limits);
   const std::string& file = options.grading.empty() ? options.read.files.front() : options.grading;
   if (input.name.empty()) input.name = files::path(file).stem().string();
   input.grading_from = options.grading.empty() ? "the grains of the sample" : names_of({options.grading});
@@ -189,12 +190,12 @@ VerdictInput input_of(const Options& options, const std::optional<Snapshot>& sna
   if (input.porosity) {
     HydraulicInput checked = input.hydraulic;
     checked.porosity = *input.porosity;
-    check_hydraulic(checked, kWho);
+    check_hydraulic(checked, kVerdict);
   }
   return input;
 }
 
-std::optional<SampleFindings> measure_sample(const Options& options, const VerdictInput& input,
+std::optional<SampleFindings> measure_sample(const VerdictOptions& options, const VerdictInput& input,
                                              const std::optional<Snapshot>& snapshot) {
   if (!snapshot) return std::nullopt;
   SampleFindings sample;
@@ -212,7 +213,7 @@ std::optional<SampleFindings> measure_sample(const Options& options, const Verdi
 }
 
 /// All figures, in a folder that is not yet the user's.
-std::vector<VerdictFigure> draw(const Options& options, const VerdictInput& input,
+std::vector<VerdictFigure> draw(const VerdictOptions& options, const VerdictInput& input,
                                 const VerdictFindings& findings, const std::optional<Snapshot>& snapshot,
                                 const std::string& folder) {
   if (options.no_figures || (options.html.empty() && options.figures.empty())) return {};
@@ -230,12 +231,12 @@ void keep_figures(const std::string& from, const std::string& to) {
   if (!problem)
     files::copy(from, to, files::copy_options::recursive | files::copy_options::overwrite_existing, problem);
   if (problem)
-    throw_user_error({kWho, "--figures", to, "be a folder that can be written to", problem.message()});
+    throw_user_error({kVerdict, "--figures", to, "be a folder that can be written to", problem.message()});
 }
 
-void run(Options& options) {
+void run(VerdictOptions& options) {
   check(options);
-  options.outputs.require_new(kWho);
+  options.outputs.require_new(kVerdict);
   options.constriction.fractions = fraction_names().at(options.fractions);
   options.constriction.pore = pore_names().at(options.pore);
   const std::optional<Snapshot> snapshot = judged_snapshot(options);
@@ -271,9 +272,9 @@ void run(Options& options) {
 }  // namespace
 
 void add_verdict(CLI::App& app) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerdictOptions>();
   CLI::App* command = app.add_subcommand(
-      kWho, "One report on a soil: grading, all criteria side by side, a sample's contacts, gradients");
+      kVerdict, "One report on a soil: grading, all criteria side by side, a sample's contacts, gradients");
   command->add_option("PSD", options->grading,
                       "grading: CSV file or dump of grains, as in `grading`; without it that of the sample");
   options->read.add_to(*command, "--sample");

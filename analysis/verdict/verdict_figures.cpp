@@ -21,13 +21,13 @@
 namespace suffuse::analysis {
 namespace {
 
-constexpr const char* kWho = "verdict";
+constexpr const char* kVerdictFigures = "verdict";
 /// Inches: on a phone, where the page is some 3.7 wide, the text of a figure stays readable.
 constexpr const char* kWidth = "4.2";
 
 template <typename Write>
 void write_file(const std::string& path, Write write) {
-  SafeFile file(path, kWho);
+  SafeFile file(path, kVerdictFigures);
   write(file);
   file.commit();
 }
@@ -76,15 +76,15 @@ std::vector<Drawing> grading_drawings(const VerdictInput& input, const VerdictFi
 std::vector<Drawing> sample_drawings(const SampleFindings& sample, const micromechanics::Packing& packing,
                                      const std::string& folder) {
   using Of = VerdictFigure::Of;
-  CsvWriter contacts(folder + "/sample.csv", kWho);
+  CsvWriter contacts(folder + "/sample.csv", kVerdictFigures);
   contacts.write(sample.record);
   contacts.commit();
-  CsvWriter pdf(folder + "/forces.csv", kWho);
+  CsvWriter pdf(folder + "/forces.csv", kVerdictFigures);
   write_force_pdf(pdf, sample.step, sample.bins, sample.forces);
   pdf.commit();
   const auto plane = micromechanics::plane_distribution(packing, micromechanics::Plane::xz,
                                                         micromechanics::kOrientationBins);
-  write_rose(folder + "/rose.csv", plane, roses_of(plane, 4), kWho);
+  write_rose(folder + "/rose.csv", plane, roses_of(plane, 4), kVerdictFigures);
   return {{{Of::forces, "forces", "",
             "Probability densities of normal and tangential contact forces over their means",
             "Distribution of the contact forces.", ""},
@@ -107,13 +107,13 @@ std::vector<Drawing> flow_drawings(const std::string& flow, const ResultRows& re
   using Of = VerdictFigure::Of;
   std::error_code problem;
   std::filesystem::copy_file(flow, folder + "/flow.csv", problem);
-  if (problem) throw_user_error({kWho, "--flow", flow, "be readable", problem.message()});
-  results.write_csv(folder + "/flow_results.csv", kWho);
+  if (problem) throw_user_error({kVerdictFigures, "--flow", flow, "be readable", problem.message()});
+  results.write_csv(folder + "/flow_results.csv", kVerdictFigures);
   Drawing layers{{Of::layers, "layers", "", "Profiles over the layers of the bed at four instants",
                   "Layers of the bed, 1 at the top, from the first sample to the last.", ""},
                  "layers.py",
                  {"flow.csv", "--quantities"}};
-  const NumberTable table(flow, kWho);
+  const NumberTable table(flow, kVerdictFigures);
   for (const char* quantity : kLayerQuantities)
     if (table.find(fmt::format("{}_2", quantity)) != nullptr) layers.words.push_back(quantity);
   std::vector<Drawing> drawings{
@@ -134,7 +134,7 @@ std::string content_of(const std::string& path) {
 void draw(Drawing& drawing, const std::string& folder, bool png) {
   VerdictFigure& figure = drawing.figure;
   std::vector<std::string> words = drawing.words;
-  figure.command = figure_script_as_called(drawing.script, kWho);
+  figure.command = figure_script_as_called(drawing.script, kVerdictFigures);
   for (std::string& word : words) {
     figure.command += fmt::format(" {}", shell_word(word));
     if (word.ends_with(".csv")) word = folder + "/" + word;
@@ -144,7 +144,7 @@ void draw(Drawing& drawing, const std::string& folder, bool png) {
   for (const char* ending : {".svg", ".png"}) {
     if (!png && std::string_view(ending) == ".png") continue;
     words.back() = folder + "/" + figure.file + ending;
-    make_figure(drawing.script, words, kWho);
+    make_figure(drawing.script, words, kVerdictFigures);
   }
   figure.svg = content_of(folder + "/" + figure.file + ".svg");
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lattice_vectors.h"
+
 namespace suffuse::lbm {
 
 namespace {
@@ -216,7 +218,7 @@ void FacePatches<T>::apply(Populations<T>& populations, const FaceConditions& fa
     const T* from = kOddStep ? beyond : own;
     T* to = kOddStep ? own : beyond;
     const double w = kWeight[i];
-    const Vec3 c(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+    const Vec3 c = velocity_of(i);
 
     const bool still = one.kind == FaceKind::no_slip || (one.velocity.isZero(0) && two.velocity.isZero(0));
     if (patch.rule.action == LinkRule::Action::bounce && still) {

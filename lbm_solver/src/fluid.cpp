@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fluid_core.h"
+#include "lattice_vectors.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse::lbm {
@@ -23,7 +24,7 @@ CellBox local_cells(const FluidCoreBase& core) {
 /// Equilibrium less the weight (thesis eq 3.25), or He & Luo's; half of the force is taken off the momentum
 /// so that the velocity read back is the one asked for.
 double equilibrium_deviation(int i, const FluidPoint& point, const Vec3& force, bool incompressible) {
-  const Vec3 c(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+  const Vec3 c = velocity_of(i);
   const double cu = c.dot(point.velocity), density = incompressible ? 1 : point.density;
   return kWeight[i] *
          ((point.density - 1) + density * (3 * cu + 4.5 * cu * cu - 1.5 * point.velocity.squaredNorm()) -
@@ -236,8 +237,7 @@ Vec3 Fluid::momentum() const {
   Vec3 mine = Vec3::Zero(), all = Vec3::Zero();
   for_each_cell(local_cells(*core_), [&](int x, int y, int z) {
     if (core_->is_solid(x, y, z)) return;
-    for (int i = 1; i < kDirections; ++i)
-      mine += core_->population(i, x, y, z) * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+    for (int i = 1; i < kDirections; ++i) mine += core_->population(i, x, y, z) * velocity_of(i);
     mine += 0.5 * core_->force;
   });
   MPI_Allreduce(mine.data(), all.data(), 3, MPI_DOUBLE, MPI_SUM, core_->decomposition.communicator());

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "lattice_vectors.h"
+
 namespace suffuse::lbm {
 
 namespace {
@@ -27,7 +29,7 @@ FluidPoint FluidCoreBase::at(int x, int y, int z) const {
   for (int i = 1; i < kDirections; ++i) {
     const double g = population(i, x, y, z);
     deviation += g;
-    momentum += g * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+    momentum += g * velocity_of(i);
   }
   return point_of(deviation, momentum, partial_solid(x, y, z));
 }

@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "suffuse/lbm/lattice.h"
+#include "lattice_vectors.h"
 #include "suffuse/lbm/reference_fluid.h"
 
 namespace suffuse::lbm {
@@ -10,10 +10,6 @@ namespace suffuse::lbm {
 namespace {
 
 using CellPopulations = std::array<double, 19>;
-
-Vec3 velocity_of(int i) {
-  return Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
-}
 
 /// Thesis eq 3.25 in lattice units.
 double equilibrium(int i, double density, const Vec3& u) {

@@ -1,16 +1,8 @@
 #include "suffuse/lbm/reference_fluid.h"
 
-#include "suffuse/lbm/lattice.h"
+#include "lattice_vectors.h"
 
 namespace suffuse::lbm {
-
-namespace {
-
-Vec3 velocity_of(int i) {
-  return Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
-}
-
-}  // namespace
 
 ReferenceFluid::ReferenceFluid(const FluidSettings& settings, const Index3& cells)
     : settings_(settings), cells_(cells) {

@@ -1,5 +1,6 @@
 #include "solid_links.h"
 
+#include "lattice_vectors.h"
 #include "suffuse/lbm/boundary.h"
 
 namespace suffuse::lbm {
@@ -50,8 +51,7 @@ void SolidLinks<T>::fill(Populations<T>& populations) {
       beyond[cell] = own[cell];
       sum += static_cast<double>(own[cell]);
     }
-    forces_.try_emplace(group.label, Vec3::Zero()).first->second +=
-        2 * sum * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+    forces_.try_emplace(group.label, Vec3::Zero()).first->second += 2 * sum * velocity_of(i);
   }
 }
 
@@ -67,8 +67,7 @@ void SolidLinks<T>::fold(Populations<T>& populations) {
       own[cell] = beyond[cell];
       sum += static_cast<double>(beyond[cell]);
     }
-    forces_.try_emplace(group.label, Vec3::Zero()).first->second +=
-        2 * sum * Vec3(kVelocity[i][0], kVelocity[i][1], kVelocity[i][2]);
+    forces_.try_emplace(group.label, Vec3::Zero()).first->second += 2 * sum * velocity_of(i);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 using Label = std::int64_t;
 constexpr Label kNobody = -1;
 
-std::size_t at(int n) {
+std::size_t slot(int n) {
   return static_cast<std::size_t>(n);
 }
 
@@ -25,10 +25,10 @@ std::vector<Label> union_of(std::vector<Label> mine, MPI_Comm communicator) {
   mine.erase(std::unique(mine.begin(), mine.end()), mine.end());
   int ranks = 1, count = static_cast<int>(mine.size());
   MPI_Comm_size(communicator, &ranks);
-  std::vector<int> counts(at(ranks)), offsets(at(ranks), 0);
+  std::vector<int> counts(slot(ranks)), offsets(slot(ranks), 0);
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
   std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
-  std::vector<Label> all(at(offsets.back() + counts.back()));
+  std::vector<Label> all(slot(offsets.back() + counts.back()));
   MPI_Allgatherv(mine.data(), count, MPI_INT64_T, all.data(), counts.data(), offsets.data(), MPI_INT64_T,
                  communicator);
   std::sort(all.begin(), all.end());
@@ -51,7 +51,7 @@ class SpaceLabels {
       lowest_[number(local({x, y, z}))] = of_whole({x, y, z});
     });
     for (std::size_t a = 0; a < 3; ++a) pitch_[a] = box_.extent(static_cast<int>(a)) + 2;
-    around_.assign(at(pitch_[0]) * at(pitch_[1]) * at(pitch_[2]), kNobody);
+    around_.assign(slot(pitch_[0]) * slot(pitch_[1]) * slot(pitch_[2]), kNobody);
     join_inside();
     while (join_neighbours()) {
     }
@@ -62,7 +62,7 @@ class SpaceLabels {
   Label of(std::size_t n) { return lowest_[root(n)]; }
 
   std::size_t number(const Index3& cell) const {
-    return at(cell[0]) + at(box_.extent(0)) * (at(cell[1]) + at(box_.extent(1)) * at(cell[2]));
+    return slot(cell[0]) + slot(box_.extent(0)) * (slot(cell[1]) + slot(box_.extent(1)) * slot(cell[2]));
   }
   Index3 local(const Index3& cell) const {
     return {cell[0] - box_.lo[0], cell[1] - box_.lo[1], cell[2] - box_.lo[2]};
@@ -119,7 +119,7 @@ class SpaceLabels {
 
   bool is_inside(const Index3& cell) const {
     for (int a = 0; a < 3; ++a)
-      if (cell[at(a)] < 0 || cell[at(a)] >= box_.extent(a)) return false;
+      if (cell[slot(a)] < 0 || cell[slot(a)] >= box_.extent(a)) return false;
     return true;
   }
 
@@ -132,7 +132,7 @@ class SpaceLabels {
   }
 
   std::size_t place(const Index3& cell) const {
-    return at(cell[0] + 1) + at(pitch_[0]) * (at(cell[1] + 1) + at(pitch_[1]) * at(cell[2] + 1));
+    return slot(cell[0] + 1) + slot(pitch_[0]) * (slot(cell[1] + 1) + slot(pitch_[1]) * slot(cell[2] + 1));
   }
 
   /// Takes lower labels over from cells around; true if any rank did. Collective.
@@ -178,8 +178,8 @@ class SpaceLabels {
 
   CellBox layer_box(int axis, int position) const {
     CellBox box{{-1, -1, -1}, {pitch_[0] - 1, pitch_[1] - 1, pitch_[2] - 1}};
-    box.lo[at(axis)] = position;
-    box.hi[at(axis)] = position + 1;
+    box.lo[slot(axis)] = position;
+    box.hi[slot(axis)] = position + 1;
     return box;
   }
   std::vector<Label> layer(int axis, int position) const {

@@ -16,9 +16,9 @@ using namespace suffuse::micromechanics;
 
 namespace {
 
-constexpr int kColumns = 8;
+constexpr int kLayerColumns = 8;
 
-std::array<double, kColumns> columns_of(const LayerFines& layer, double middle) {
+std::array<double, kLayerColumns> columns_of(const LayerFines& layer, double middle) {
   return {layer.porosity, layer.fines_share,   layer.coordination,     layer.shire,
           layer.sufian,   layer.sliding_share, layer.constraint_ratio, middle};
 }
@@ -57,8 +57,8 @@ ComputeFinesLayer::ComputeFinesLayer(LAMMPS* lmp_in, int& iarg, int narg, char**
                                "be given, low end first",
                                "add `bounds LO HI`, the heights (m) of the sample"});
   need_friction();
-  declare_vector(kColumns - 1);
-  declare_array(grid_.layers, kColumns);
+  declare_vector(kLayerColumns - 1);
+  declare_array(grid_.layers, kLayerColumns);
 }
 
 void ComputeFinesLayer::init() {

@@ -30,7 +30,7 @@ namespace mm = suffuse::micromechanics;
 
 namespace {
 
-constexpr const char* kWho = "fix density/scaling";
+constexpr const char* kDensityScaling = "fix density/scaling";
 /// Of its state in restart files.
 constexpr int kStateVersion = 1;
 /// Of a grain's weight: forces below are the rounding of the weight itself.
@@ -64,8 +64,8 @@ struct FixDensityScaling::Gravity {
 
 FixDensityScaling::FixDensityScaling(LAMMPS* lmp_in, int narg, char** arg)
     : Fix(lmp_in, narg, arg), gravity_(std::make_unique<Gravity>()) {
-  suffuse::ArgumentReader reader(kWho, narg, arg, 3);
-  suffuse::require_si_units(lmp, kWho);
+  suffuse::ArgumentReader reader(kDensityScaling, narg, arg, 3);
+  suffuse::require_si_units(lmp, kDensityScaling);
   const std::string mode = reader.word("size D or rayleigh T");
   by_size_ = mode == "size";
   if (by_size_) {
@@ -74,7 +74,7 @@ FixDensityScaling::FixDensityScaling(LAMMPS* lmp_in, int narg, char** arg)
     share_ = reader.positive("share of the critical time");
     if (share_ > 1)
       throw_user_error(
-          {kWho, "share", fmt::format("{:g}", share_), "be <= 1", "0.2 is the thesis's largest"});
+          {kDensityScaling, "share", fmt::format("{:g}", share_), "be <= 1", "0.2 is the thesis's largest"});
     reference_time_ = update->dt / share_;
   } else {
     reader.unknown(mode, "size, rayleigh");
@@ -119,12 +119,12 @@ void FixDensityScaling::pre_delete(bool unfixflag) {
 }
 
 void FixDensityScaling::init() {
-  suffuse::require_single_spheres(lmp, kWho);
+  suffuse::require_single_spheres(lmp, kDensityScaling);
   require_compatible_fixes();
   find_gravity();
   if (first_init_) require_true_masses_at_first();
   first_init_ = false;
-  law_ = std::make_unique<suffuse::PairLaw>(suffuse::PairLaw::of(lmp, kWho));
+  law_ = std::make_unique<suffuse::PairLaw>(suffuse::PairLaw::of(lmp, kDensityScaling));
   require_sane_factors();
   scale(0, atom->nlocal);
 }
@@ -136,7 +136,7 @@ void FixDensityScaling::require_sane_factors() const {
   for (int i = 0; i < atom->nlocal; ++i) largest = std::max(largest, factor(i));
   MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
   if (!(largest <= most))
-    throw_user_error({kWho, by_size_ ? "reference diameter" : "share of the critical time",
+    throw_user_error({kDensityScaling, by_size_ ? "reference diameter" : "share of the critical time",
                       fmt::format("{:g}", by_size_ ? diameter_ : share_),
                       fmt::format("raise densities by at most {:g}, not by {:.3g}", most, largest),
                       "SI units: diameters in m, `timestep` in s"});
@@ -148,15 +148,15 @@ void FixDensityScaling::require_compatible_fixes() const {
     const std::string other = modify->fix[i]->style;
     if (other == style) ++scalings;
     if (other == "hydrodynamic/force")
-      throw_user_error({kWho, "fix", modify->fix[i]->id,
+      throw_user_error({kDensityScaling, "fix", modify->fix[i]->id,
                         "not be there: in water, grains move by their true masses",
                         fmt::format("write `unfix {}` before the water comes", id)});
     if (other.find("multisphere") == 0)
-      throw_user_error({kWho, "fix", modify->fix[i]->id, "not be there: grains are single spheres",
+      throw_user_error({kDensityScaling, "fix", modify->fix[i]->id, "not be there: grains are single spheres",
                         "use `fix nve/sphere`"});
   }
   if (scalings > 1)
-    throw_user_error({kWho, "fixes of this style", std::to_string(scalings), "be one at a time",
+    throw_user_error({kDensityScaling, "fixes of this style", std::to_string(scalings), "be one at a time",
                       "unfix the first before the next"});
 }
 
@@ -166,7 +166,7 @@ void FixDensityScaling::find_gravity() {
     if (std::strcmp(modify->fix[i]->style, "gravity") != 0) continue;
     auto* gravity = static_cast<FixGravity*>(modify->fix[i]);
     if (!GravityAccess::is_constant(*gravity))
-      throw_user_error({kWho, "fix gravity", gravity->id, "be constant",
+      throw_user_error({kDensityScaling, "fix gravity", gravity->id, "be constant",
                         "write numbers instead of variables: weight is that of the true masses"});
     gravity_->fixes.push_back(gravity);
   }
@@ -181,8 +181,8 @@ void FixDensityScaling::require_true_masses_at_first() {
       others += 1;
   suffuse::sum_over_ranks(lmp, {&others, 1});
   if (others > 0)
-    throw_user_error({kWho, "grains whose mass is not density times volume", fmt::format("{:.0f}", others),
-                      "be none", "set their `density` instead of their mass"});
+    throw_user_error({kDensityScaling, "grains whose mass is not density times volume",
+                      fmt::format("{:.0f}", others), "be none", "set their `density` instead of their mass"});
 }
 
 double FixDensityScaling::factor(int i) const {
@@ -361,7 +361,7 @@ void FixDensityScaling::write_restart(FILE* file) {
 
 /// The reference time of `rayleigh` stays that of the first definition.
 void FixDensityScaling::restart(char* buffer) {
-  const std::vector<double> values = suffuse::read_record(buffer, kStateVersion, 2, kWho).values;
+  const std::vector<double> values = suffuse::read_record(buffer, kStateVersion, 2, kDensityScaling).values;
   if (!by_size_ && values[1] == share_) reference_time_ = values[0];
 }
 

@@ -27,7 +27,7 @@ constexpr int kValues = FixHydrodynamicForce::kLoadValues + suffuse::kGrainRecor
 /// Of a grain in a restart file: the length, as LIGGGHTS wants it, the record's version, the values.
 constexpr int kRestartValues = 2 + kValues;
 /// Of the fix in a restart file: time of the fluid.
-constexpr int kStateVersion = 1;
+constexpr int kTimeVersion = 1;
 }  // namespace
 
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
@@ -245,11 +245,11 @@ double FixHydrodynamicForce::compute_scalar() {
 
 void FixHydrodynamicForce::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  suffuse::write_record(file, {kStateVersion, "", {compute_scalar()}});
+  suffuse::write_record(file, {kTimeVersion, "", {compute_scalar()}});
 }
 
 void FixHydrodynamicForce::restart(char* state) {
-  fluid_time_ = suffuse::read_record(state, kStateVersion, 1, "fix hydrodynamic/force").values[0];
+  fluid_time_ = suffuse::read_record(state, kTimeVersion, 1, "fix hydrodynamic/force").values[0];
 }
 
 /// Sum of the forces (1 to 3) and torques (4 to 6) on the grains of the group.

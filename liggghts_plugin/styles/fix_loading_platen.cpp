@@ -26,12 +26,12 @@ namespace platen = suffuse::platen;
 
 namespace {
 
-constexpr const char* kWho = "fix loading/platen";
+constexpr const char* kPlaten = "fix loading/platen";
 constexpr const char* kChangeable = "stress, fixed, opening, speed";
-constexpr const char* kKeywords =
+constexpr const char* kPlatenKeywords =
     "stress, fixed, opening, speed, collect, classes, mass, damping, area, type";
 /// The record in restart files: position, velocity, reference, and three values a class.
-constexpr int kRecordVersion = 2;
+constexpr int kPlatenVersion = 2;
 constexpr std::size_t kRecordFixed = 3;
 
 FixPropertyGlobal& property(LAMMPS* lmp, const char* name, const char* kind, int columns) {
@@ -39,7 +39,7 @@ FixPropertyGlobal& property(LAMMPS* lmp, const char* name, const char* kind, int
   auto* found = dynamic_cast<FixPropertyGlobal*>(
       lmp->modify->find_fix_property(name, "property/global", kind, types, columns, "suffuse", false));
   if (found == nullptr)
-    throw_user_error({kWho, name, "unknown", "be defined",
+    throw_user_error({kPlaten, name, "unknown", "be defined",
                       fmt::format("write `fix ID all property/global {} {} ...`", name, kind)});
   return *found;
 }
@@ -49,7 +49,7 @@ std::vector<double> read_bounds(suffuse::ArgumentReader& reader) {
   while (reader.next_is_number()) {
     bounds.push_back(reader.positive("classes (m)"));
     if (bounds.back() <= bounds[bounds.size() - 2])
-      throw_user_error({kWho, "classes",
+      throw_user_error({kPlaten, "classes",
                         fmt::format("{:g} after {:g}", bounds.back(), bounds[bounds.size() - 2]), "rise",
                         "give the diameters between classes, smallest first"});
   }
@@ -59,10 +59,10 @@ std::vector<double> read_bounds(suffuse::ArgumentReader& reader) {
 }  // namespace
 
 FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
-  suffuse::ArgumentReader reader(kWho, narg, arg, 3);
-  suffuse::require_si_units(lmp, kWho);
+  suffuse::ArgumentReader reader(kPlaten, narg, arg, 3);
+  suffuse::require_si_units(lmp, kPlaten);
   if (atom->radius_flag == 0 || atom->rmass == nullptr)
-    throw_user_error({kWho, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
+    throw_user_error({kPlaten, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
   drive_.damping_ratio = 0.5;
   const std::string side = reader.word("side (upper, lower)");
   if (side != "upper" && side != "lower") reader.unknown(side, "upper, lower");
@@ -77,7 +77,7 @@ FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(l
   while (!reader.done())
     if (!read_changeable(reader)) read_construction(reader);
   if (!loading_given_)
-    throw_user_error({kWho, "stress", "nothing", "be given", "write `stress P` (Pa), or `fixed`"});
+    throw_user_error({kPlaten, "stress", "nothing", "be given", "write `stress P` (Pa), or `fixed`"});
   check_words();
   vector_flag = 1;
   size_vector = 8;
@@ -106,7 +106,7 @@ bool FixLoadingPlaten::read_changeable(suffuse::ArgumentReader& reader) {
   else
     return false;
   if (opening_ < 0)
-    throw_user_error({kWho, "opening", fmt::format("{:g}", opening_), "be >= 0",
+    throw_user_error({kPlaten, "opening", fmt::format("{:g}", opening_), "be >= 0",
                       "give the diameter (m) below which grains pass; 0 holds all"});
   return true;
 }
@@ -125,26 +125,26 @@ void FixLoadingPlaten::read_construction(suffuse::ArgumentReader& reader) {
   else if (reader.keyword("type"))
     type_ = static_cast<int>(std::min<std::int64_t>(reader.positive_integer("type"), 1000000));
   else
-    reader.unknown(reader.word("keyword"), kKeywords);
+    reader.unknown(reader.word("keyword"), kPlatenKeywords);
 }
 
 void FixLoadingPlaten::check_words() const {
   if (type_ > atom->ntypes)
-    throw_user_error({kWho, "type", std::to_string(type_),
+    throw_user_error({kPlaten, "type", std::to_string(type_),
                       fmt::format("be one of the {} types", atom->ntypes),
                       "name the type whose material the platen has"});
   constexpr int fixed_face = 1;  // LIGGGHTS: 0 periodic, 1 fixed, 2 and 3 shrink-wrapped
   for (const int face : domain->boundary[axis_])
     if (face != fixed_face)
-      throw_user_error({kWho, "boundary",
+      throw_user_error({kPlaten, "boundary",
                         fmt::format("{} along {}", face == 0 ? "periodic" : "shrink-wrapped", "xyz"[axis_]),
                         "be fixed across a platen", "write `boundary` with f for this axis"});
   if (motion_.position < domain->boxlo[axis_] || motion_.position > domain->boxhi[axis_])
     throw_user_error(
-        {kWho, "position", fmt::format("{:g}", motion_.position), "lie in the box",
+        {kPlaten, "position", fmt::format("{:g}", motion_.position), "lie in the box",
          fmt::format("give one from {:g} to {:g} m", domain->boxlo[axis_], domain->boxhi[axis_])});
   if (collect_ == 0 && passed_.classes() > 1)
-    throw_user_error({kWho, "classes", "without collect", "go with `collect L`",
+    throw_user_error({kPlaten, "classes", "without collect", "go with `collect L`",
                       "add how far (m) beyond the platen grains are taken out of the box"});
 }
 
@@ -157,9 +157,9 @@ void FixLoadingPlaten::post_create() {
 }
 
 void FixLoadingPlaten::init() {
-  suffuse::require_single_spheres(lmp, kWho);
-  if (const auto law = suffuse::PairLaw::of(lmp, kWho); law.kind() != suffuse::PairLaw::Kind::hertz)
-    throw_user_error({kWho, "pair_style gran", law.name(),
+  suffuse::require_single_spheres(lmp, kPlaten);
+  if (const auto law = suffuse::PairLaw::of(lmp, kPlaten); law.kind() != suffuse::PairLaw::Kind::hertz)
+    throw_user_error({kPlaten, "pair_style gran", law.name(),
                       "be `model hertz`: the platen's contacts are Hertz's",
                       "write `pair_style gran model hertz tangential history`"});
   connect_materials();
@@ -195,7 +195,7 @@ void FixLoadingPlaten::take_drive() {
   }
   const auto grains = suffuse::grain_statistics(lmp, groupbit);
   if (grains.count == 0 && (given_mass_ == 0 || given_speed_ == 0))
-    throw_user_error({kWho, "group", "without grains",
+    throw_user_error({kPlaten, "group", "without grains",
                       "have grains, which the platen's mass and speed follow from",
                       "insert them before the first run, or give `mass M` and `speed V`"});
   constexpr double share = 0.1, speed = 0.02;
@@ -236,7 +236,7 @@ void FixLoadingPlaten::press() {
   reaction_ = {sums[0], sums[1]};
   contacts_ = sums[2];
   if (stress_ && platen::stiffness_of_step(drive_, reaction_, update->dt) > 1)
-    throw_user_error({kWho, "mass", fmt::format("{:g} kg", drive_.mass),
+    throw_user_error({kPlaten, "mass", fmt::format("{:g} kg", drive_.mass),
                       fmt::format("be above {:.3g} kg for this step and these contacts",
                                   reaction_.stiffness * update->dt * update->dt),
                       "give `mass M`, or a smaller timestep"});
@@ -307,18 +307,18 @@ void FixLoadingPlaten::write_restart(FILE* file) {
   for (std::size_t k = 0; k < passed_.classes(); ++k)
     values.insert(values.end(),
                   {compute_array(static_cast<int>(k), 0), passed_.row(k).grains, passed_.row(k).mass});
-  suffuse::write_record(file, {kRecordVersion, "", values});
+  suffuse::write_record(file, {kPlatenVersion, "", values});
 }
 
 /// The state goes on from the file; stress, opening and the rest are those of the script's line.
 void FixLoadingPlaten::restart(char* buffer) {
   const std::vector<double> values =
-      suffuse::read_record(buffer, kRecordVersion, kRecordFixed + 3 * passed_.classes(), kWho).values;
+      suffuse::read_record(buffer, kPlatenVersion, kRecordFixed + 3 * passed_.classes(), kPlaten).values;
   bool same = true;
   for (std::size_t k = 0; same && k < passed_.classes(); ++k)
     same = values[kRecordFixed + 3 * k] == compute_array(static_cast<int>(k), 0);
   if (!same)
-    throw_user_error({kWho, "classes", "other ones than in the restart file", "be the same",
+    throw_user_error({kPlaten, "classes", "other ones than in the restart file", "be the same",
                       "take those of the run before"});
   motion_ = {values[0], values[1]};
   reference_ = values[2];

@@ -27,8 +27,8 @@ using suffuse::lubrication::PairLoads;
 
 namespace {
 
-constexpr const char* kWho = "fix lubrication";
-constexpr const char* kKeywords = "viscosity, outer, inner, density, every, walls";
+constexpr const char* kLubrication = "fix lubrication";
+constexpr const char* kLubricationKeywords = "viscosity, outer, inner, density, every, walls";
 
 Vec3 vec(const double* values) {
   return Vec3(values[0], values[1], values[2]);
@@ -49,7 +49,7 @@ void read_walls(suffuse::ArgumentReader& reader, std::vector<FixLubrication::Pla
     }
   }
   if (walls.size() == before)
-    throw_user_error({kWho, "walls", reader.word("walls"),
+    throw_user_error({kLubrication, "walls", reader.word("walls"),
                       "be xplane X, yplane Y or zplane Z, one or several",
                       "e.g. `walls zplane 0 zplane 0.05`; leave `walls` away where there are none"});
 }
@@ -73,8 +73,8 @@ double smallest_radius(LAMMPS* lmp) {
 }  // namespace
 
 FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
-  suffuse::ArgumentReader reader(kWho, narg, arg, 3);
-  suffuse::require_si_units(lmp, kWho);
+  suffuse::ArgumentReader reader(kLubrication, narg, arg, 3);
+  suffuse::require_si_units(lmp, kLubrication);
   while (!reader.done()) {
     if (reader.keyword("viscosity"))
       film_.viscosity = reader.positive("viscosity");
@@ -89,7 +89,7 @@ FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
     else if (reader.keyword("walls"))
       read_walls(reader, walls_);
     else
-      reader.unknown(reader.word("keyword"), kKeywords);
+      reader.unknown(reader.word("keyword"), kLubricationKeywords);
   }
   const struct {
     const char* name;
@@ -100,16 +100,17 @@ FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_i
       {"outer", film_.outer, "give the gap in m from which on the lattice resolves it: 2/3 of a cell"},
       {"inner", film_.inner, "give the grains' roughness in m, e.g. a thousandth of their radius"}};
   for (const auto& [name, value, remedy] : needed)
-    if (value == 0) throw_user_error({kWho, name, "nothing", "be given", remedy});
+    if (value == 0) throw_user_error({kLubrication, name, "nothing", "be given", remedy});
   if (film_.inner >= film_.outer)
-    throw_user_error({kWho, "inner", fmt::format("{:g}", film_.inner),
+    throw_user_error({kLubrication, "inner", fmt::format("{:g}", film_.inner),
                       fmt::format("be smaller than outer = {:g}", film_.outer),
                       "inner is the grains' roughness, outer 2/3 of a cell"});
   if (atom->radius_flag == 0 || atom->torque_flag == 0)
-    throw_user_error({kWho, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
+    throw_user_error(
+        {kLubrication, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
   const double smallest = smallest_radius(lmp);
   if (smallest == 0)
-    throw_user_error({kWho, "grains", "none", "be there, or come from an insertion",
+    throw_user_error({kLubrication, "grains", "none", "be there, or come from an insertion",
                       "write this line after that which makes the grains"});
   // Neighbour lists then hold every pair that can come within `outer` before the next list.
   neighbor->register_contact_dist_factor(required_distance_factor(smallest));
@@ -158,16 +159,17 @@ void FixLubrication::post_create() {
 }
 
 void FixLubrication::init() {
-  suffuse::require_single_spheres(lmp, kWho);
-  pair_ = &suffuse::require_granular_pair_style(lmp, kWho);
+  suffuse::require_single_spheres(lmp, kLubrication);
+  pair_ = &suffuse::require_granular_pair_style(lmp, kLubrication);
   // These lists leave the distance factor out.
   if (force->newton_pair != 0)
-    throw_user_error({kWho, "newton", "on", "be off", "write `newton off` at the start of the script"});
+    throw_user_error(
+        {kLubrication, "newton", "on", "be off", "write `newton off` at the start of the script"});
   if (neighbor->style == 2)
-    throw_user_error({kWho, "neighbor style", "multi", "be bin or nsq", "write `neighbor SKIN bin`"});
+    throw_user_error({kLubrication, "neighbor style", "multi", "be bin or nsq", "write `neighbor SKIN bin`"});
   const double smallest = smallest_radius(lmp);
   if (smallest > 0 && neighbor->contactDistanceFactor < required_distance_factor(smallest) * (1 - 1e-9))
-    throw_user_error({kWho, "smallest radius", fmt::format("{:g}", smallest),
+    throw_user_error({kLubrication, "smallest radius", fmt::format("{:g}", smallest),
                       "not be below what it was when the fix was defined, or pairs would be missed",
                       "write this line after the insertion of the smallest grains"});
   since_run_ = {};

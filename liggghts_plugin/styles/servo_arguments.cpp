@@ -7,7 +7,7 @@
 namespace suffuse {
 namespace {
 
-constexpr const char* kKeywords =
+constexpr const char* kServoKeywords =
     "every, inertial_number, diameter, max_rate, approach, tolerance, static_window, unbalanced, progress, "
     "until";
 
@@ -145,7 +145,7 @@ void read_option(ArgumentReader& reader, ServoArguments& arguments) {
   } else if (key == "until") {
     read_stop(reader, arguments.settings);
   } else {
-    reader.unknown(key, kKeywords);
+    reader.unknown(key, kServoKeywords);
   }
 }
 

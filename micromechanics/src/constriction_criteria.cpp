@@ -18,10 +18,6 @@ void check_share(const char* what, double value, bool open) {
                       "give a share, not per cent"});
 }
 
-Verdict stable_if(bool stable) {
-  return stable ? Verdict::stable : Verdict::unstable;
-}
-
 std::string micrometres(double diameter) {
   return fmt::format("{:.4g} um", 1e6 * diameter);
 }

@@ -9,8 +9,7 @@
 namespace suffuse::micromechanics {
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr std::array<std::array<int, 2>, 3> kAxes{{{0, 1}, {0, 2}, {1, 2}}};
+constexpr double kFullTurn = 2 * std::numbers::pi;
 
 std::size_t index(int i) {
   return static_cast<std::size_t>(i);
@@ -41,7 +40,7 @@ HarmonicFit fit(std::span<const double> values, int highest, bool over_the_mean)
   for (int k = 2; k <= highest; k += 2) {
     double cosine = 0, sine = 0;
     for (std::size_t bin = 0; bin < values.size(); ++bin) {
-      const double angle = (static_cast<double>(bin) + 0.5) * kTwoPi / n;
+      const double angle = (static_cast<double>(bin) + 0.5) * kFullTurn / n;
       cosine += values[bin] * std::cos(k * angle) * 2 / n;
       sine += values[bin] * std::sin(k * angle) * 2 / n;
     }
@@ -58,7 +57,7 @@ double PlaneDistribution::centre(int bin) const {
 }
 
 double PlaneDistribution::width() const {
-  return kTwoPi / bins();
+  return kFullTurn / bins();
 }
 
 std::vector<double> PlaneDistribution::contact_density() const {
@@ -91,7 +90,7 @@ void PlaneDistribution::add(const PlaneDistribution& other) {
 }
 
 PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bins) {
-  const std::array<int, 2> axes = kAxes[static_cast<std::size_t>(plane)];
+  const std::array<int, 2> axes = kPlaneAxes[static_cast<std::size_t>(plane)];
   const int half = bins / 2;
   PlaneDistribution result;
   for (auto* values : {&result.contacts, &result.normal, &result.tangential})
@@ -110,7 +109,7 @@ PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bi
       along = -along;
       across = -across;
     }
-    const int bin = std::min(static_cast<int>(std::atan2(across, along) / kTwoPi * bins), half - 1);
+    const int bin = std::min(static_cast<int>(std::atan2(across, along) / kFullTurn * bins), half - 1);
     for (const int where : {bin, bin + half}) {
       result.contacts[index(where)] += 1;
       result.normal[index(where)] += force;

@@ -11,9 +11,6 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr int kHalf = kOrientationBins / 2;
 
-/// The two axes of a plane.
-constexpr std::array<std::array<int, 2>, 3> kAxes{{{0, 1}, {0, 2}, {1, 2}}};
-
 void add_angle(OrientationHistogram& histogram, double along_first, double along_second) {
   if (along_first == 0 && along_second == 0) return;
   // The sign of a normal has no meaning: take the half turn [0, π) and add its opposite bin, so that the
@@ -38,7 +35,7 @@ FabricSums fabric_sums(const Packing& packing) {
     sums.contacts += 1;
     sums.normals.add(normal * normal.transpose());
     for (std::size_t plane = 0; plane < 3; ++plane)
-      add_angle(sums.planes[plane], normal[kAxes[plane][0]], normal[kAxes[plane][1]]);
+      add_angle(sums.planes[plane], normal[kPlaneAxes[plane][0]], normal[kPlaneAxes[plane][1]]);
   }
   return sums;
 }

@@ -13,7 +13,7 @@ namespace suffuse::micromechanics {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 1e-9;  // sums of shares such as 20 × 0.05 are exact to far less
 constexpr std::size_t kMostSizes =
     200;  // more sizes of grains than this are gathered in so many equal shares
@@ -196,7 +196,7 @@ Grading Grading::from_grains(std::span<const double> diameters, const GapRule& r
 double Grading::diameter_at(double finer) const {
   const auto point = std::partition_point(curve_.begin(), curve_.end(),
                                           [&](const GradingPoint& p) { return p.finer < finer - kRounding; });
-  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kNaN;
+  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kUnknown;
   if (point == curve_.begin()) return curve_.front().diameter;
   if (point == curve_.end()) return curve_.back().diameter;
   return log_between(std::min(finer, point->finer), *(point - 1), *point);
@@ -205,29 +205,29 @@ double Grading::diameter_at(double finer) const {
 double Grading::diameter_above(double finer) const {
   const auto point = std::partition_point(
       curve_.begin(), curve_.end(), [&](const GradingPoint& p) { return p.finer <= finer + kRounding; });
-  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kNaN;
+  if (std::isnan(finer) || finer < unknown_below_ - kRounding) return kUnknown;
   if (point == curve_.begin()) return curve_.front().diameter;
   if (point == curve_.end()) return curve_.back().diameter;
   return log_between(std::max(finer, (point - 1)->finer), *(point - 1), *point);
 }
 
 double Grading::finer_at(double diameter) const {
-  if (std::isnan(diameter)) return kNaN;
+  if (std::isnan(diameter)) return kUnknown;
   if (diameter >= curve_.back().diameter) return 1;
   const auto above = std::upper_bound(curve_.begin(), curve_.end(), diameter,
                                       [](double d, const GradingPoint& p) { return d < p.diameter; });
-  if (above == curve_.begin()) return unknown_below_ > 0 ? kNaN : 0;
+  if (above == curve_.begin()) return unknown_below_ > 0 ? kUnknown : 0;
   const GradingPoint &low = *(above - 1), &high = *above;
   return between(std::log(diameter), std::log(low.diameter), std::log(high.diameter), low.finer, high.finer);
 }
 
 double Grading::finer_below(double diameter) const {
-  if (std::isnan(diameter)) return kNaN;
+  if (std::isnan(diameter)) return kUnknown;
   if (diameter > curve_.back().diameter) return 1;
   const auto above = std::lower_bound(curve_.begin(), curve_.end(), diameter,
                                       [](const GradingPoint& p, double d) { return p.diameter < d; });
   if (above == curve_.begin() && unknown_below_ > 0)
-    return diameter == curve_.front().diameter ? unknown_below_ : kNaN;
+    return diameter == curve_.front().diameter ? unknown_below_ : kUnknown;
   if (above == curve_.begin()) return 0;
   const GradingPoint &low = *(above - 1), &high = *above;
   return between(std::log(diameter), std::log(low.diameter), std::log(high.diameter), low.finer, high.finer);
@@ -271,7 +271,7 @@ GradingIndices grading_indices(const Grading& grading) {
   GradingIndices indices{d(0.05), d(0.10), d(0.15), d(0.20), d(0.30), d(0.50), d(0.60), d(0.85), d(0.90)};
   indices.uniformity = indices.d60 / indices.d10;
   indices.curvature = indices.d30 * indices.d30 / (indices.d10 * indices.d60);
-  indices.sauter = grading.unknown_below() > 0 ? kNaN : effective_diameter(grading.classes(200));
+  indices.sauter = grading.unknown_below() > 0 ? kUnknown : effective_diameter(grading.classes(200));
   return indices;
 }
 

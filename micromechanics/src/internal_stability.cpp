@@ -23,10 +23,6 @@ std::string percent(double share) {
   return fmt::format("{:.3g} %", 100 * share);
 }
 
-Verdict stable_if(bool stable) {
-  return stable ? Verdict::stable : Verdict::unstable;
-}
-
 CriterionResult outside(CriterionResult result, std::string why) {
   result.value = kNaN;
   result.verdict = Verdict::not_applicable;

@@ -5,7 +5,7 @@
 namespace suffuse::micromechanics {
 namespace {
 
-std::size_t index(int i) {
+std::size_t place(int i) {
   return static_cast<std::size_t>(i);
 }
 
@@ -25,11 +25,11 @@ Neighbours neighbours_of(const Packing& packing) {
       visit(c.second, c.first);
     }
   };
-  each_end([&](int from, int) { ++result.begin[index(from)]; });
+  each_end([&](int from, int) { ++result.begin[place(from)]; });
   for (std::size_t i = 1; i < result.begin.size(); ++i) result.begin[i] += result.begin[i - 1];
   result.grain.resize(result.begin.back());
   // Where a row ends becomes where it begins.
-  each_end([&](int from, int to) { result.grain[--result.begin[index(from)]] = to; });
+  each_end([&](int from, int to) { result.grain[--result.begin[place(from)]] = to; });
   return result;
 }
 
@@ -41,15 +41,15 @@ std::vector<bool> load_bearing(const Packing& packing, int minimum) {
   std::vector<int> leaving;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     if (contacts[i] < minimum) leaving.push_back(static_cast<int>(i));
-  for (const int i : leaving) bearing[index(i)] = false;
+  for (const int i : leaving) bearing[place(i)] = false;
   const Neighbours neighbours = neighbours_of(packing);
   while (!leaving.empty()) {
-    const std::size_t gone = index(leaving.back());
+    const std::size_t gone = place(leaving.back());
     leaving.pop_back();
     for (std::size_t k = neighbours.begin[gone]; k < neighbours.begin[gone + 1]; ++k) {
       const int other = neighbours.grain[k];
-      if (--contacts[index(other)] >= minimum || !bearing[index(other)]) continue;
-      bearing[index(other)] = false;
+      if (--contacts[place(other)] >= minimum || !bearing[place(other)]) continue;
+      bearing[place(other)] = false;
       leaving.push_back(other);
     }
   }

@@ -11,11 +11,11 @@
 namespace suffuse::micromechanics {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Area of the part of a circle at the origin with X ≤ x, for |x| ≤ r.
 double circle_area_below(double radius, double x) {
-  return radius * radius * (kPi / 2 + std::asin(x / radius)) +
+  return radius * radius * (pi / 2 + std::asin(x / radius)) +
          x * std::sqrt(std::max(0.0, radius * radius - x * x));
 }
 
@@ -25,7 +25,7 @@ double circle_area_in_quadrant(double radius, double x, double y) {
   y = std::clamp(y, -radius, radius);
   const double below_x = circle_area_below(radius, x);
   const double below_y = circle_area_below(radius, y);
-  const double whole = kPi * radius * radius;
+  const double whole = pi * radius * radius;
   if (x * x + y * y < radius * radius) return (below_x + below_y) / 2 - whole / 4 + x * y;
   if (x >= 0 && y >= 0) return below_x + below_y - whole;
   if (x < 0 && y < 0) return 0;
@@ -51,7 +51,7 @@ struct GaussRule {
 
   GaussRule() {
     for (int i = 0; i < kPoints; ++i) {
-      double x = std::cos(kPi * (i + 0.75) / (kPoints + 0.5)), slope = 1;
+      double x = std::cos(pi * (i + 0.75) / (kPoints + 0.5)), slope = 1;
       for (int iteration = 0; iteration < 20; ++iteration) {
         double previous = 1, legendre = x;
         for (int degree = 2; degree <= kPoints; ++degree) {
@@ -108,7 +108,7 @@ double integrate_sections(double radius, const Rectangle& cut, double low, doubl
 double sphere_volume_below(double radius, double height) {
   if (height <= -radius) return 0;
   if (height >= radius) return sphere_volume(radius);
-  return kPi * (radius + height) * (radius + height) * (2 * radius - height) / 3;
+  return pi * (radius + height) * (radius + height) * (2 * radius - height) / 3;
 }
 
 double sphere_volume_in_box(const Vec3& centre, double radius, const Box& box) {

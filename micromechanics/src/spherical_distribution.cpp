@@ -8,17 +8,16 @@
 namespace suffuse::micromechanics {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Number of cells of each collar, poles included, from top to bottom; the same read from the bottom.
 std::vector<int> cells_of_collars(int wanted) {
-  const double side = std::sqrt(4 * kPi / wanted);            // of a square cell
+  const double side = std::sqrt(4 * pi / wanted);             // of a square cell
   const double cap = 2 * std::asin(std::sqrt(1.0 / wanted));  // polar angle of a cap of one cell's area
-  const int collars = std::max(1, static_cast<int>(std::lround((kPi - 2 * cap) / side)));
+  const int collars = std::max(1, static_cast<int>(std::lround((pi - 2 * cap) / side)));
   std::vector<int> counts{1};
   for (int c = 0; c < collars; ++c) {
-    const double top = cap + (kPi - 2 * cap) * c / collars,
-                 bottom = cap + (kPi - 2 * cap) * (c + 1) / collars;
+    const double top = cap + (pi - 2 * cap) * c / collars, bottom = cap + (pi - 2 * cap) * (c + 1) / collars;
     counts.push_back(
         std::max(3, static_cast<int>(std::lround((std::cos(top) - std::cos(bottom)) / 2 * wanted))));
   }
@@ -42,7 +41,7 @@ SphericalGrid::SphericalGrid(int cells) {
     edges_.push_back(above == all ? -1 : 1 - 2 * above / all);
     for (int k = 0; k < count; ++k)
       cells_.push_back(
-          {edges_.back(), edges_[edges_.size() - 2], 2 * kPi * k / count, 2 * kPi * (k + 1) / count});
+          {edges_.back(), edges_[edges_.size() - 2], 2 * pi * k / count, 2 * pi * (k + 1) / count});
   }
 }
 
@@ -55,7 +54,7 @@ Vec3 SphericalGrid::Cell::centre() const {
 }
 
 double SphericalGrid::solid_angle() const {
-  return 4 * kPi / size();
+  return 4 * pi / size();
 }
 
 int SphericalGrid::find(const Vec3& direction) const {
@@ -63,8 +62,8 @@ int SphericalGrid::find(const Vec3& direction) const {
   const auto below = std::upper_bound(edges_.begin() + 1, edges_.end() - 1, z, std::greater<>());
   const auto collar = static_cast<std::size_t>(below - edges_.begin() - 1);
   double azimuth = std::atan2(direction.y(), direction.x());
-  if (azimuth < 0) azimuth += 2 * kPi;
-  const int sector = static_cast<int>(azimuth / (2 * kPi) * count_[collar]);
+  if (azimuth < 0) azimuth += 2 * pi;
+  const int sector = static_cast<int>(azimuth / (2 * pi) * count_[collar]);
   return first_[collar] + std::min(sector, count_[collar] - 1);
 }
 
@@ -100,7 +99,7 @@ std::vector<double> spherical_density(const std::vector<double>& values, const S
 
 double second_order_density(const Mat3& fabric, const Vec3& direction) {
   const Vec3 n = direction.normalized();
-  return (1 + 7.5 * (n.dot(fabric * n) - fabric.trace() / 3)) / (4 * kPi);
+  return (1 + 7.5 * (n.dot(fabric * n) - fabric.trace() / 3)) / (4 * pi);
 }
 
 Mat3 normal_force_moment(const Packing& packing) {

@@ -10,7 +10,7 @@ import struct
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, expect, loose_sample, mistakes_not_named, program_from_command_line, read_sample, scratch  # noqa: E402
+from scenes import Program, expect, loose_sample, mistakes_not_named, program_from_command_line, read_sample, scratch, thermo_rows  # noqa: E402
 
 COMPUTES = """
 compute b all broken/contacts
@@ -23,9 +23,10 @@ thermo 50
 SQUEEZE = "fix squeeze all deform 1 x trate -400 y trate -400 z trate -400 remap x\n"
 
 
-def rows(screen):
-    lines = (line.split() for line in screen.splitlines())
-    return {int(words[0]): [float(word) for word in words[1:]] for words in lines if len(words) == 11 and words[0].isdigit()}
+def rows(program, text, folder, name):
+    """What the computes gave, by step."""
+    program.must_run(text, folder, name)
+    return {int(step): values for step, *values in thermo_rows(folder, 11, name)}
 
 
 def main():
@@ -37,19 +38,19 @@ def main():
             loose_sample(grains=120) + SQUEEZE + "run 700\nunfix squeeze\n"
             "reset_timestep 0\nwrite_restart sample\n", folder)
         start = read_sample("sample") + COMPUTES
-        uncut = rows(program.must_run(start + SQUEEZE + "run 200\nrun 200\n", folder, "uncut"))
+        uncut = rows(program, start + SQUEEZE + "run 200\nrun 200\n", folder, "uncut")
         program.must_run(start + SQUEEZE + "run 100\nwrite_restart early\nrun 100\nwrite_restart half\n", folder, "first")
         moved = uncut[200][0] != uncut[150][0] and uncut[200][3] != uncut[200][4] and uncut[200][8] > 0
         expect(uncut[200][3] > 20 and moved, f"nothing to see: {uncut}")
         for kind, state, step in ((program, "half", 200), (other, "half", 200), (program, "early", 100)):
-            cut = rows(kind.must_run(read_sample(state) + COMPUTES + SQUEEZE + "run 200\n", folder, "second"))
+            cut = rows(kind, read_sample(state) + COMPUTES + SQUEEZE + "run 200\n", folder, "second")
             for now in (step, step + 50):
                 # References are whole numbers and one force, to the last digit; contacts of a run that goes on differ by a few.
                 expect([cut[now][k] for k in (3, 8)] == [uncut[now][k] for k in (3, 8)], f"{state}, step {now}: references of {cut[now]}, not {uncut[now]}")
                 expect(all(abs(a - b) < 5 / uncut[now][3] for a, b in zip(cut[now][:3], uncut[now][:3])), f"{state}, step {now}: {cut[now]}, not {uncut[now]}")
                 if state == "half":
                     expect(cut[now][6] == uncut[now][6], f"late reference: {cut[now]}, not {uncut[now]}")
-        again = rows(program.must_run(read_sample("half") + COMPUTES + "run 0\nuncompute b\ncompute b all broken/contacts\nrun 0\n", folder, "anew"))
+        again = rows(program, read_sample("half") + COMPUTES + "run 0\nuncompute b\ncompute b all broken/contacts\nrun 0\n", folder, "anew")
         expect(again[200][0] == 0 and again[200][3] == again[200][4], f"a compute that is given anew has a reference of before: {again}")
         whole = (folder / "half").read_bytes()
         mark = whole.index(b"suffuse\n", whole.index(b"reference_of_b"))

@@ -11,7 +11,7 @@ import random
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import HEADER, expect, material, program_from_command_line, scratch  # noqa: E402
+from scenes import HEADER, expect, material, program_from_command_line, scratch, thermo_rows  # noqa: E402
 
 VISCOSITY, OUTER, INNER = 1.2e-3, 1e-4, 2e-5
 LENGTH, HEIGHT = 3e-3, 4e-3
@@ -140,15 +140,6 @@ def read_steps(folder):
     return steps
 
 
-def thermo(screen):
-    rows = []
-    for line in screen.splitlines():
-        words = line.split()
-        if len(words) == 9 and words[0].isdigit():
-            rows.append([float(word) for word in words])
-    return rows
-
-
 def check_loads(found, wanted, what):
     """Rounding: gaps are differences of coordinates of 1e-3 m, so off by 1e-18 m, a part in 1e13 of the smallest."""
     scale = [max(abs(load[k]) for load in wanted for k in part) for part in ((0, 1, 2), (3, 4, 5))]
@@ -164,9 +155,9 @@ def check_many_grains(program, folder, grains):
     expect(films > 60, f"only {films} films in the scene")
     for style in ("bin", "nsq"):
         write_grains(folder, grains)
-        screen = program.must_run(scene().replace("bin", style) + FILM + walls + OUTPUT + "run 0\n", folder)
+        program.must_run(scene().replace("bin", style) + FILM + walls + OUTPUT + "run 0\n", folder)
         worst = check_loads(read_steps(folder)[0][1], wanted, style)
-        row = thermo(screen)[0]
+        row = thermo_rows(folder, 9)[0]
         expect(row[3] == films, f"{style}: {row[3]} films, {films} by hand")
         expect(row[5] == 0, f"{row[5]} of the films are bounded at a short step")
         expect(row[8] > 0, "no Reynolds number")
@@ -188,8 +179,8 @@ def check_conservation(program, folder, grains):
     write_grains(folder, [g for g in grains if g.radius < g.x[2] - OUTER and g.x[2] < HEIGHT - OUTER - g.radius])
     steps, dt = 40, 1e-6
     film = FILM.replace(f"viscosity {VISCOSITY}", "viscosity 0.1")
-    screen = program.must_run(scene("p p p", step=dt) + film + OUTPUT + f"run {steps}\n", folder)
-    rows, states = thermo(screen), read_steps(folder)
+    program.must_run(scene("p p p", step=dt) + film + OUTPUT + f"run {steps}\n", folder)
+    rows, states = thermo_rows(folder, 9), read_steps(folder)
     momenta = [[sum(g.mass * g.v[k] for g in grains_then) for k in range(3)] for grains_then, _ in states]
     size = sum(g.mass * math.sqrt(dot(g.v, g.v)) for g in states[0][0])
     drift = max(abs(p - q) for p, q in zip(momenta[0], momenta[-1])) / size
@@ -247,7 +238,8 @@ def check_long_steps(program, folder, grains):
     """A fluid so viscous that one step could stop every grain: films are bounded, and energy still only falls."""
     write_grains(folder, grains)
     film = FILM.replace(f"viscosity {VISCOSITY}", "viscosity 1e4") + f" walls zplane 0 zplane {HEIGHT}\n"
-    rows = thermo(program.must_run(scene(step=1e-6) + film + OUTPUT + "run 60\n", folder))
+    program.must_run(scene(step=1e-6) + film + OUTPUT + "run 60\n", folder)
+    rows = thermo_rows(folder, 9)
     bounded = rows[-1][6]
     expect(bounded > 0.5, f"{bounded} of the films are bounded")
     energy = [row[1] + row[2] for row in rows]
@@ -256,12 +248,12 @@ def check_long_steps(program, folder, grains):
     # Held over ten steps, forces change every tenth, and neither momentum nor the fall of energy suffers.
     write_grains(folder, grains)
     film = FILM.replace(f"viscosity {VISCOSITY}", "viscosity 10") + " every 10\n"
-    screen = program.must_run(scene("p p p") + film + OUTPUT + "run 20\n", folder)
+    program.must_run(scene("p p p") + film + OUTPUT + "run 20\n", folder)
     forces = [[load[:3] for load in loads] for _, loads in read_steps(folder)]
     expect(forces[0] == forces[9] and forces[10] == forces[19] and forces[9] != forces[10], "forces are not held for ten steps")
     largest = max(abs(value) for force in forces[10] for value in force)
     expect(max(abs(sum(force[k] for force in forces[10])) for k in range(3)) < 1e-12 * largest, "held forces do not balance")
-    rows = thermo(screen)
+    rows = thermo_rows(folder, 9)
     energy = [row[1] + row[2] for row in rows]
     expect(energy[10] < energy[0] and energy[20] < energy[10], "energy rises with held forces")
     return bounded

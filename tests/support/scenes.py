@@ -112,6 +112,12 @@ class Program:
         return screen
 
 
+def thermo_rows(folder, words, name="scene"):
+    """Rows of so many numbers of a run's log, the first a step. Not of its screen, where another rank's words may stand within a line."""
+    lines = (line.split() for line in (pathlib.Path(folder) / f"log.{name}").read_text(errors="replace").splitlines())
+    return [[float(word) for word in line] for line in lines if len(line) == words and line[0].isdigit()]
+
+
 def mistakes_not_named(program, cases, folder, title=lambda script: script.strip().splitlines()[-1]):
     """Runs scripts that a person got wrong: each must end with code 1 and one error line that has the case's words.
     Returns what is amiss, a text each; `title` names a script in it."""

@@ -11,6 +11,8 @@ inline constexpr int kOrientationBins = 36;  ///< over 2π (thesis App. D)
 
 /// The planes on which contact normals are projected, in the order of the histograms.
 enum class Plane { xy = 0, xz = 1, yz = 2 };
+/// The two axes of each.
+inline constexpr std::array<std::array<int, 2>, 3> kPlaneAxes{{{0, 1}, {0, 2}, {1, 2}}};
 
 struct OrientationHistogram {
   std::array<double, kOrientationBins> counts{};

@@ -12,6 +12,9 @@ enum class Verdict { stable, transitional, unstable, not_applicable };
 
 /// "stable", "transitional", "unstable", "not applicable".
 const char* to_string(Verdict verdict);
+inline Verdict stable_if(bool stable) {
+  return stable ? Verdict::stable : Verdict::unstable;
+}
 
 /// What one criterion says of a soil.
 /// What a criterion looks at; those that look at the same thing have one vote in a report.
