@@ -5,9 +5,9 @@
 //   coefficient_calibration --packing sc:0.45,fcc:0.6 --diameter 5,10,20 --coefficient auto --operator sc3
 //
 // Packings: sc:PHI, fcc:PHI, random:PHI:COUNT:SEED, spread:PHI:COUNT:SEED:SPREAD, appendix_c:PHI:SEED,
-// gap:PHI:COARSE:SEED:RATIO:FINES_SHARE. A box is periodic and a whole number of cells; the diameter that
-// fits it best is taken and printed. K is the drag on a sphere over 6 pi mu a U with the Sauter radius, U the
-// superficial velocity: permeability/d^2 = 1/(18 phi K).
+// gap:PHI:COARSE:SEED:RATIO:FINES_SHARE, grading:PHI:COUNT:FILE:SEED, pair:PHI:GAP. A box is periodic and a
+// whole number of cells; the diameter that fits it best is taken and printed. K is the drag on a sphere over
+// 6 pi mu a U with the Sauter radius, U the superficial velocity: permeability/d^2 = 1/(18 phi K).
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
   app.add_option("--fraction", fraction, "exact, linear, subcells");
   app.add_option("--collision", collision, "see `lbm collision`");
   app.add_option("--magic", run.magic, "of trt");
-  app.add_option("--law", law, "constant,single,crowded,narrow of the automatic coefficient");
+  app.add_option("--law", law, "constant,single,crowded,narrow,tight,reach of the automatic coefficient");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
   app.add_flag("--through", run.through, "flow along z instead of x");
   app.add_option("--speed", speed, "moves packing and fluid along x, cells a step: another set of columns");
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   if (fraction == "subcells") run.fraction = FractionMethod::subcells;
   if (!law.empty()) {
     const std::vector<double> terms = listed(law, read_number);
-    run.law = CoefficientLaw{{terms.at(0), terms.at(1), terms.at(2), terms.at(3)}};
+    run.law = CoefficientLaw{{terms.at(0), terms.at(1), terms.at(2), terms.at(3), terms.at(4), terms.at(5)}};
   }
   for (const lbm::CollisionFacts& facts : lbm::kCollisionOperators)
     if (collision == facts.word) run.collision = facts.collision_operator;

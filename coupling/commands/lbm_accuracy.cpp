@@ -65,7 +65,7 @@ std::vector<AccuracyChoice> choices_beside(const AccuracyChoice& chosen, const A
     if (!resolved) return choices;
     cells = resolved->cells;
   } else {
-    add(0.8 * cells);
+    if (const double fewer = std::max(0.8 * cells, least_cells(scene)); fewer < 0.95 * cells) add(fewer);
   }
   add(cells);
   add(1.25 * cells);

@@ -18,6 +18,9 @@ namespace {
 
 constexpr const char* kWho = "lbm accuracy";
 constexpr double kLeastCells = 2, kMostCells = 8, kStepOfCells = 0.05;
+/// A bed of 1,060 free grains trembles on 2.84 cells a diameter and steps of 0.05 ms (stresses between layers
+/// are not those of its weight), with any law of the coefficient; not with steps of a third of that.
+constexpr double kLeastCellsOfFreeGrains = 3.5;
 constexpr double kFinest = 0.014, kCoarsest = 0.3;
 /// Share of the accuracy that the time step's errors may take.
 constexpr double kShareOfTimeStep = 1. / 3;
@@ -238,8 +241,12 @@ std::optional<AccuracyChoice> averaged_choice(const AccuracyWish& wish, const Ac
   return choice;
 }
 
+double least_cells(const AccuracyScene& scene) {
+  return scene.falling > 0 ? kLeastCellsOfFreeGrains : kLeastCells;
+}
+
 std::optional<AccuracyChoice> resolved_choice(const AccuracyWish& wish, const AccuracyScene& scene) {
-  for (double cells = kLeastCells; cells <= kMostCells + 1e-9; cells += kStepOfCells) {
+  for (double cells = least_cells(scene); cells <= kMostCells + 1e-9; cells += kStepOfCells) {
     if (fitting_spacing(scene.size, scene.counted_diameter / cells) <= 0) continue;
     const AccuracyChoice choice = choice_with_cells(cells, wish, scene);
     if (keeps_to(wish, choice)) return choice;

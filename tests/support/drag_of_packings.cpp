@@ -126,12 +126,23 @@ Packing array_packing(double c, bool face_centred) {
   return packing;
 }
 
+/// Two spheres with a gap (diameters) on an oblique line: neither along the lattice nor along the flow.
+Packing pair_packing(double phi, double gap) {
+  Packing packing;
+  const double radius = std::cbrt(phi / 2 * 3 / (4 * std::numbers::pi));
+  const Vec3 centre = Vec3::Constant(0.5), half = (1 + gap) * radius * Vec3(0.6, 0.64, 0.48);
+  packing.centres = {centre - half, centre + half};
+  packing.radii = {radius, radius};
+  return packing;
+}
+
 Packing make_packing(const std::string& text) {
   const std::vector<std::string> words = split(text, ':');
   const auto number = [&](std::size_t n) { return std::stod(words.at(n)); };
   const auto whole = [&](std::size_t n) { return std::stoi(words.at(n)); };
   const std::string& kind = words.at(0);
   if (kind == "sc" || kind == "fcc") return array_packing(number(1), kind == "fcc");
+  if (kind == "pair") return pair_packing(number(1), number(2));
   Packing packing;
   PackingRequest request;
   if (kind == "random") {
@@ -143,6 +154,9 @@ Packing make_packing(const std::string& text) {
   } else if (kind == "appendix_c") {
     request.radii = appendix_c_radii();
     request.seed = static_cast<std::uint64_t>(whole(2));
+  } else if (kind == "grading") {
+    request.radii = grading_radii(words.at(3), whole(2));
+    request.seed = static_cast<std::uint64_t>(whole(4));
   } else if (kind == "gap") {
     request.radii = gap_graded_radii(whole(2), number(4), number(5));
     request.seed = static_cast<std::uint64_t>(whole(3));

@@ -20,8 +20,9 @@ struct Packing {
 /// A simple cubic array, or a face-centred one, of the solid fraction c.
 Packing array_packing(double c, bool face_centred);
 
-/// sc:PHI, fcc:PHI, random:PHI:COUNT:SEED, spread:PHI:COUNT:SEED:SPREAD, appendix_c:PHI:SEED or
-/// gap:PHI:COARSE:SEED:RATIO:FINES_SHARE. Throws std::runtime_error for another text.
+/// sc:PHI, fcc:PHI, pair:PHI:GAP (two spheres, a gap in diameters), random:PHI:COUNT:SEED,
+/// spread:PHI:COUNT:SEED:SPREAD, appendix_c:PHI:SEED or gap:PHI:COARSE:SEED:RATIO:FINES_SHARE or
+/// grading:PHI:COUNT:FILE:SEED. Throws std::runtime_error for another text.
 Packing make_packing(const std::string& text);
 
 struct DragRun {

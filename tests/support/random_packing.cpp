@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <numbers>
 #include <random>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace suffuse::coupling {
 
@@ -230,6 +234,27 @@ std::vector<double> appendix_c_radii() {
     radii.insert(radii.end(), static_cast<std::size_t>(std::lround(std::pow(classes[0] / r, 3))), r);
   const double mean = sauter_diameter(radii) / 2;
   for (double& r : radii) r /= mean;
+  return radii;
+}
+
+std::vector<double> grading_radii(const std::string& path, int count) {
+  std::ifstream file(path);
+  std::vector<std::pair<double, double>> classes;  // radius, number of grains
+  double total = 0, largest = 0;
+  for (std::string line; std::getline(file, line);) {
+    double diameter = 0, share = 0;
+    if (std::sscanf(line.c_str(), "%lf,%lf", &diameter, &share) != 2) continue;
+    classes.emplace_back(diameter / 2, share / std::pow(diameter, 3));
+    total += classes.back().second;
+    largest = std::max(largest, diameter / 2);
+  }
+  if (classes.empty()) throw std::runtime_error("no grading in " + path);
+  std::vector<double> radii;
+  double finer = 0;
+  for (const auto& [radius, number] : classes) {
+    finer += number / total;
+    while (static_cast<double>(radii.size()) + 0.5 < count * finer) radii.push_back(radius / largest);
+  }
   return radii;
 }
 

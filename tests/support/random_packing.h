@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "suffuse/common/linear_algebra.h"
@@ -38,6 +39,11 @@ std::vector<double> spread_radii(int count, double spread);
 /// The grading of the thesis's Appendix C (20 classes of equal mass): as many spheres of each class as make
 /// the masses equal with one of the largest. Radii over the Sauter mean radius.
 std::vector<double> appendix_c_radii();
+
+/// So many radii of a grading file (rows diameter, share of the mass; input_scripts/gradings), at equal steps
+/// of the number of grains that are smaller, over the largest class's. Throws std::runtime_error without the
+/// file.
+std::vector<double> grading_radii(const std::string& path, int count);
 
 /// Coarse spheres of radius 1 and enough finer ones, `ratio` times smaller, to make up a share of the volume.
 std::vector<double> gap_graded_radii(int coarse, double ratio, double fines_share);

@@ -1,5 +1,6 @@
 // k in each cell from the sphere's diameter and the pores around the cell: the law, the survey of the pores
 // on any number of ranks, and when a survey is made.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -76,27 +77,48 @@ std::vector<Vec3> directions(int count) {
   return points;
 }
 
-/// Surface per volume of pore at a place, by summing the window over points on and in the spheres.
-double summed_surface_per_pore(const Vec3& place, const std::vector<LatticeSphere>& spheres) {
-  static const std::vector<Vec3> points = directions(4000);
+struct Seen {
   double surface = 0, solid = 0;
-  for (const LatticeSphere& s : spheres) {
-    const Vec3 centre(s.position[0], s.position[1], s.position[2]);
-    const double r = s.radius, share = 4 * std::numbers::pi / static_cast<double>(points.size());
-    const auto seen = [&](const Vec3& point) {
-      const double t = (place - point).norm() / r;
-      return t < 1 ? 15 / (8 * std::numbers::pi * r * r * r) * (1 - t * t) : 0;
-    };
-    constexpr int shells = 40;
-    for (const Vec3& n : points) {
-      surface += share * r * r * seen(centre + r * n);
-      for (int i = 0; i < shells; ++i) {
-        const double at = r * (i + 0.5) / shells;
-        solid += share * at * at * (r / shells) * seen(centre + at * n);
-      }
+};
+
+/// What a window of that range sees of a sphere, by summing it over points on and in the sphere.
+Seen seen_through(double range, const Vec3& place, const LatticeSphere& s) {
+  static const std::vector<Vec3> points = directions(4000);
+  const Vec3 centre(s.position[0], s.position[1], s.position[2]);
+  const double r = s.radius, share = 4 * std::numbers::pi / static_cast<double>(points.size());
+  const auto window = [&](const Vec3& point) {
+    const double t = (place - point).norm() / range;
+    return t < 1 ? 15 / (8 * std::numbers::pi * range * range * range) * (1 - t * t) : 0;
+  };
+  Seen seen;
+  constexpr int shells = 40;
+  for (const Vec3& n : points) {
+    seen.surface += share * r * r * window(centre + r * n);
+    for (int i = 0; i < shells; ++i) {
+      const double at = r * (i + 0.5) / shells;
+      seen.solid += share * at * at * (r / shells) * window(centre + at * n);
     }
   }
-  return surface / (std::max(0., 1 - solid) + PoreSurvey::kOpenShare);
+  return seen;
+}
+
+/// Surface per volume of pore at a place; `reach` as CoefficientTerms has it.
+double summed_surface_per_pore(const Vec3& place, const std::vector<LatticeSphere>& spheres,
+                               double reach = 0) {
+  double surfaces = 0, radii = 0;
+  for (const LatticeSphere& s : spheres) {
+    const double surface = seen_through(s.radius, place, s).surface;
+    surfaces += surface;
+    radii += surface * s.radius;
+  }
+  Seen all;
+  for (const LatticeSphere& s : spheres) {
+    const double range = reach > 0 && surfaces > 0 ? std::min(s.radius, reach * radii / surfaces) : s.radius;
+    const Seen seen = seen_through(range, place, s);
+    all.surface += seen.surface;
+    all.solid += seen.solid;
+  }
+  return all.surface / (std::max(0., 1 - all.solid) + PoreSurvey::kOpenShare);
 }
 
 }  // namespace
@@ -142,9 +164,45 @@ TEST_CASE("The surface per volume of pore is what a sum over points on and in th
     CHECK(found(cell[0], cell[1], cell[2]) == Approx(summed_surface_per_pore(place, spheres)).epsilon(0.01));
   }
   CHECK(found(22, 18, 18) == 0);  // farther than a diameter from all
+  // Where the surface around is mostly the small sphere's, the large ones are seen from as near as it.
+  survey.update(spheres, {0, 0, 6, 0, 0, 0.9});
+  for (const lbm::Index3& cell : {lbm::Index3{12, 13, 12}, {11, 13, 13}, {10, 12, 11}}) {
+    const Vec3 place(cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5);
+    const double wanted = summed_surface_per_pore(place, spheres, 0.9);
+    CHECK(std::abs(wanted / summed_surface_per_pore(place, spheres) - 1) > 0.05);
+    CHECK(found(cell[0], cell[1], cell[2]) == Approx(wanted).epsilon(0.02));
+  }
   survey.update(spheres, {7, 9, 6, 36});
   const float s = static_cast<float>(summed_surface_per_pore(Vec3(12.5, 10.5, 10.5), spheres));
   CHECK(found(12, 10, 10) == Approx(s + s * s).epsilon(0.02));  // of the pore alone: no constant, no diameter
+  survey.update(spheres, {7, 9, 6, 36, 1296});
+  CHECK(found(12, 10, 10) == Approx(s + s * s + s * s * s * s).epsilon(0.04));
+}
+
+TEST_CASE("Among equal spheres the window is their radius, however far it might reach") {
+  CoupledSettings settings = cells_as_metres();
+  settings.fluid.collision.relaxation_time = 0.8;
+  settings.solids.cells.own_coefficients = true;
+  const Bed bed(24, 0.5, std::vector<double>(16, 1.));
+  lbm::Fluid fluid(settings.fluid, lbm::Decomposition::balanced(MPI_COMM_SELF, bed.cells));
+  const lbm::PartialSolidArrays arrays = fluid.use_partial_solids(settings.solids.cells);
+  std::vector<LatticeSphere> spheres(16);
+  for (std::size_t n = 0; n < spheres.size(); ++n) {
+    for (int a = 0; a < 3; ++a) spheres[n].position[a] = bed.centres[n][a];
+    spheres[n].radius = bed.request.radii[n];
+  }
+  PoreSurvey survey(fluid.instruction_set(), arrays, fluid.decomposition().local_box());
+  survey.update(spheres, {0, 0, 6, 0});
+  const std::vector<float> without = survey.values();
+  // A hair's breadth of difference makes it look at both.
+  spheres[5].radius *= 1 + 1e-6;
+  survey.update(spheres, {0, 0, 6, 0, 0, 1.7});
+  const std::vector<float> with = survey.values();
+  double largest = 0;
+  for (std::size_t n = 0; n < with.size(); ++n)
+    largest = std::max(largest, static_cast<double>(std::abs(with[n] - without[n])));
+  CHECK(largest < 1e-3);
+  CHECK(*std::max_element(with.begin(), with.end()) > 0.5);
 }
 
 TEST_CASE("Coefficients are the same to the last digit on any number of ranks") {
