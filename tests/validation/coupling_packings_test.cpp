@@ -50,7 +50,7 @@ TEST_CASE(
   CHECK(std::abs(error_percent("random:0.5:16:11", 8, {})) < 100 * largest_permeability_error(8));
 }
 
-TEST_CASE("Gap-graded packings not fitted: drag within 3 % where fines are two to three cells across") {
+TEST_CASE("Gap-graded packings not fitted: drag within 3 % at eight cells, where fines have two to four") {
   const std::string packing = GENERATE("gap:0.62:6:31:3:0.3", "gap:0.6:8:31:5:0.1", "gap:0.65:4:31:4:0.35");
   INFO(packing);
   CHECK(std::abs(error_percent(packing, 8, {})) < 3);
