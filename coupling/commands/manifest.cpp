@@ -17,8 +17,8 @@ std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing) {
 }
 
 std::string resolution_note(const LiggghtsPort::Summary& grains, double spacing) {
-  constexpr double least =
-      3.5;  // a single grain of fewer cells has a drag that changes by per cents with its place among them
+  // A single grain of fewer cells has a drag that changes by per cents with its place among them.
+  constexpr double least = 3.5;
   const double smallest = 2 * grains.smallest_radius / spacing;
   if (grains.grains == 0 || smallest >= least) return "";
   return fmt::format(

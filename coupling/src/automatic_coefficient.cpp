@@ -114,10 +114,8 @@ void PoreSurvey::update(const std::vector<LatticeSphere>& spheres, const Coeffic
   if (law.reach > 0 && sizes_differ(spheres)) {
     sum(add_radius);
     range_.assign(values_held(), 1);  // between the rows, too, where packs end
-    PoreCells found = cells;
-    found.range = range_.data();
-    for (int z = 0; z < cells.cells[2]; ++z) range(found, static_cast<float>(law.reach), z);
     cells.range = range_.data();
+    for (int z = 0; z < cells.cells[2]; ++z) range(cells, static_cast<float>(law.reach), z);
   }
   sum(add);
   const PoreTerms terms{static_cast<float>(law.crowded / 6), static_cast<float>(law.narrow / 36),

@@ -10,7 +10,7 @@ import struct
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import Program, expect, loose_sample, mistakes_not_named, program_from_command_line, read_sample, scratch, thermo_rows  # noqa: E402
+from scenes import Program, expect, log_text, loose_sample, mistakes_not_named, program_from_command_line, read_sample, scratch, thermo_rows  # noqa: E402
 
 COMPUTES = """
 compute b all broken/contacts
@@ -26,7 +26,7 @@ SQUEEZE = "fix squeeze all deform 1 x trate -400 y trate -400 z trate -400 remap
 def rows(program, text, folder, name):
     """What the computes gave, by step."""
     program.must_run(text, folder, name)
-    return {int(step): values for step, *values in thermo_rows(folder, 11, name)}
+    return {int(step): values for step, *values in thermo_rows(log_text(folder, name), 11)}
 
 
 def main():

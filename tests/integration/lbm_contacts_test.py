@@ -21,6 +21,7 @@ sys.path[:0] = [os.path.join(HERE, "analysis"), os.path.join(HERE, "micromechani
 from analyse_runs import rows  # noqa: E402
 from computed_columns import COLUMNS, COMPUTES, LAW_COLUMNS, LAW_VALUES, difference  # noqa: E402
 from contact_scene import FILL, HEADER, MATERIAL, SPLIT, Suffuse, check  # noqa: E402
+from scenes import thermo_rows  # noqa: E402
 from wet_scenes import WATER, wet_box  # noqa: E402
 
 # 354 grains in 31 x 31 x 31 cells at a porosity of 0.31, with some 700 contacts at 11 kPa, sheared on the way.
@@ -68,10 +69,9 @@ lbm force pressure_gradient 0 1e5 3e4
 """
 
 
-def values_in_run(screen):
+def values_in_run(log):
     """What the computes gave, by step of the grains; the step in which a run ends may be there twice."""
-    lines = [line.split() for line in screen.splitlines() if len(line.split()) == len(WORDS) + 1 and line.split()[0].isdigit()]
-    return {int(line[0]): dict(zip(WORDS, map(float, line[1:]))) for line in lines}
+    return {int(step): dict(zip(WORDS, values)) for step, *values in thermo_rows(log, len(WORDS) + 1)}
 
 
 def compare(suffuse, computed, what, files, exact):

@@ -11,7 +11,7 @@ import random
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import HEADER, expect, material, program_from_command_line, scratch, thermo_rows  # noqa: E402
+from scenes import HEADER, expect, log_text, material, program_from_command_line, scratch, thermo_rows  # noqa: E402
 
 VISCOSITY, OUTER, INNER = 1.2e-3, 1e-4, 2e-5
 LENGTH, HEIGHT = 3e-3, 4e-3
@@ -157,7 +157,7 @@ def check_many_grains(program, folder, grains):
         write_grains(folder, grains)
         program.must_run(scene().replace("bin", style) + FILM + walls + OUTPUT + "run 0\n", folder)
         worst = check_loads(read_steps(folder)[0][1], wanted, style)
-        row = thermo_rows(folder, 9)[0]
+        row = thermo_rows(log_text(folder), 9)[0]
         expect(row[3] == films, f"{style}: {row[3]} films, {films} by hand")
         expect(row[5] == 0, f"{row[5]} of the films are bounded at a short step")
         expect(row[8] > 0, "no Reynolds number")
@@ -180,7 +180,7 @@ def check_conservation(program, folder, grains):
     steps, dt = 40, 1e-6
     film = FILM.replace(f"viscosity {VISCOSITY}", "viscosity 0.1")
     program.must_run(scene("p p p", step=dt) + film + OUTPUT + f"run {steps}\n", folder)
-    rows, states = thermo_rows(folder, 9), read_steps(folder)
+    rows, states = thermo_rows(log_text(folder), 9), read_steps(folder)
     momenta = [[sum(g.mass * g.v[k] for g in grains_then) for k in range(3)] for grains_then, _ in states]
     size = sum(g.mass * math.sqrt(dot(g.v, g.v)) for g in states[0][0])
     drift = max(abs(p - q) for p, q in zip(momenta[0], momenta[-1])) / size
@@ -239,7 +239,7 @@ def check_long_steps(program, folder, grains):
     write_grains(folder, grains)
     film = FILM.replace(f"viscosity {VISCOSITY}", "viscosity 1e4") + f" walls zplane 0 zplane {HEIGHT}\n"
     program.must_run(scene(step=1e-6) + film + OUTPUT + "run 60\n", folder)
-    rows = thermo_rows(folder, 9)
+    rows = thermo_rows(log_text(folder), 9)
     bounded = rows[-1][6]
     expect(bounded > 0.5, f"{bounded} of the films are bounded")
     energy = [row[1] + row[2] for row in rows]
@@ -253,7 +253,7 @@ def check_long_steps(program, folder, grains):
     expect(forces[0] == forces[9] and forces[10] == forces[19] and forces[9] != forces[10], "forces are not held for ten steps")
     largest = max(abs(value) for force in forces[10] for value in force)
     expect(max(abs(sum(force[k] for force in forces[10])) for k in range(3)) < 1e-12 * largest, "held forces do not balance")
-    rows = thermo_rows(folder, 9)
+    rows = thermo_rows(log_text(folder), 9)
     energy = [row[1] + row[2] for row in rows]
     expect(energy[10] < energy[0] and energy[20] < energy[10], "energy rises with held forces")
     return bounded

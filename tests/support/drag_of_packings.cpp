@@ -113,6 +113,16 @@ PrescribedGrains grains_of(const Scene& scene) {
                           {true, true, true}, 1.);
 }
 
+/// Two spheres with a gap (diameters) on an oblique line: neither along the lattice nor along the flow.
+Packing pair_packing(double phi, double gap) {
+  Packing packing;
+  const double radius = std::cbrt(phi / 2 * 3 / (4 * std::numbers::pi));
+  const Vec3 centre = Vec3::Constant(0.5), half = (1 + gap) * radius * Vec3(0.6, 0.64, 0.48);
+  packing.centres = {centre - half, centre + half};
+  packing.radii = {radius, radius};
+  return packing;
+}
+
 }  // namespace
 
 Packing array_packing(double c, bool face_centred) {
@@ -123,16 +133,6 @@ Packing array_packing(double c, bool face_centred) {
     packing.centres.insert(packing.centres.end(), {Vec3(0, .5, .5), Vec3(.5, 0, .5), Vec3(.5, .5, 0)});
   const double volume = c / static_cast<double>(packing.centres.size());
   packing.radii.assign(packing.centres.size(), std::cbrt(volume * 3 / (4 * std::numbers::pi)));
-  return packing;
-}
-
-/// Two spheres with a gap (diameters) on an oblique line: neither along the lattice nor along the flow.
-Packing pair_packing(double phi, double gap) {
-  Packing packing;
-  const double radius = std::cbrt(phi / 2 * 3 / (4 * std::numbers::pi));
-  const Vec3 centre = Vec3::Constant(0.5), half = (1 + gap) * radius * Vec3(0.6, 0.64, 0.48);
-  packing.centres = {centre - half, centre + half};
-  packing.radii = {radius, radius};
   return packing;
 }
 

@@ -112,9 +112,14 @@ class Program:
         return screen
 
 
-def thermo_rows(folder, words, name="scene"):
-    """Rows of so many numbers of a run's log, the first a step. Not of its screen, where another rank's words may stand within a line."""
-    lines = (line.split() for line in (pathlib.Path(folder) / f"log.{name}").read_text(errors="replace").splitlines())
+def log_text(folder, name="scene"):
+    """A run's log. On the screen of several ranks another one's words may stand within a line."""
+    return (pathlib.Path(folder) / f"log.{name}").read_text(errors="replace")
+
+
+def thermo_rows(log, words):
+    """Rows of so many numbers in a log's text, the first a step."""
+    lines = (line.split() for line in log.splitlines())
     return [[float(word) for word in line] for line in lines if len(line) == words and line[0].isdigit()]
 
 

@@ -25,6 +25,7 @@ except ImportError:  # Debian's Python has them
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "micromechanics"))
 from computed_columns import COLUMNS, COMPUTES, LAW_COLUMNS, LAW_VALUES, difference  # noqa: E402
 from contact_scene import SAMPLE, SPLIT, Suffuse, check, read_dump  # noqa: E402
+from scenes import thermo_rows  # noqa: E402
 
 WORDS = [word for _, word, _ in COLUMNS] + ["c_sw[1]", "vol", "xlo", "xhi", "ylo", "yhi", "zlo", "zhi"]
 VALUES = " ".join(f"c_pairs[{k}]" for k in range(1, 19)) + " " + LAW_VALUES
@@ -62,10 +63,9 @@ unfix servo
 """
 
 
-def states(screen):
+def states(log):
     """What the computes gave at the two `run 0`s, by step."""
-    rows = [line.split() for line in screen.splitlines() if len(line.split()) == len(WORDS) + 1 and line.split()[0].isdigit()]
-    return {int(row[0]): dict(zip(WORDS, map(float, row[1:]))) for row in rows}
+    return {int(step): dict(zip(WORDS, values)) for step, *values in thermo_rows(log, len(WORDS) + 1)}
 
 
 def write_hdf5(path, folder, computed):

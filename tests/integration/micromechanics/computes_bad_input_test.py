@@ -7,6 +7,7 @@ rank and on two; and a sample without contacts, or without grains yet, is no mis
 import tempfile
 
 from contact_scene import HEADER, MATERIAL, Suffuse, check
+from scenes import thermo_rows
 
 EMPTY_BOX = HEADER + "region sample block 0 5e-3 0 5e-3 0 5e-3 units box\ncreate_box 1 sample\n" + MATERIAL
 TWO_GRAINS = EMPTY_BOX + """
@@ -85,9 +86,9 @@ def main():
         for name, scene in (("no contacts", TWO_GRAINS), ("no grains", NO_GRAINS)):
             for ranks in (1, 2, 3):
                 out = suffuse.must_run(ranks, scene + ALL, name.replace(" ", "_"))
-                rows = [line.split() for line in out.splitlines() if len(line.split()) == 17 and line.split()[0].isdigit()]
+                rows = thermo_rows(out, 17)
                 check(len(rows) == 2, f"{name} on {ranks} ranks: {len(rows)} thermo rows")
-                check(all(float(value) == 0 for row in rows for value in row[1:]), f"{name} on {ranks} ranks: {rows}")
+                check(all(value == 0 for row in rows for value in row[1:]), f"{name} on {ranks} ranks: {rows}")
         print(f"{len(MISTAKES)} mistakes are told in one line; loose and empty samples give zeros")
 
 

@@ -9,6 +9,7 @@ import re
 import tempfile
 
 from contact_scene import SAMPLE, SPLIT, Suffuse, check, close, read_dump
+from scenes import thermo_rows
 
 COMPUTES = f"""
 compute z all coordination split {SPLIT}
@@ -65,13 +66,8 @@ def scale_of(word):
     return 1.0
 
 
-def rows_of(out):
-    rows = []
-    for line in out.splitlines():
-        words = line.split()
-        if len(words) == len(WORDS) + 1 and words[0].isdigit():
-            rows.append(dict(zip(WORDS, map(float, words[1:]))))
-    return rows
+def rows_of(log):
+    return [dict(zip(WORDS, values)) for _, *values in thermo_rows(log, len(WORDS) + 1)]
 
 
 def main():

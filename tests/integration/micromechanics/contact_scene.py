@@ -66,11 +66,11 @@ class Suffuse:
         return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
 
     def must_run(self, ranks, script, name):
-        """The run's log: on a screen of several ranks another one's words may stand within a long line."""
+        """The run's log (see scenes.log_text)."""
         code, out, err = self.run(ranks, script, name)
         if code != 0:
             sys.exit(f"{name} on {ranks} ranks ended with code {code}:\n{out[-2000:]}\n{err[-2000:]}")
-        return (self.folder / f"log.{name}").read_text(errors="replace")
+        return scenes.log_text(self.folder, name)
 
     def analyse(self, *words):
         """Runs suffuse-analyse; returns exit code, standard output and standard error."""

@@ -10,7 +10,7 @@ import math
 import tempfile
 
 from contact_scene import Suffuse, check, close
-from scenes import HEADER, material
+from scenes import HEADER, material, thermo_rows
 
 # 5 x 5 x 5 equal grains, 0.98 mm apart, between plates 4.9 mm apart: overlaps of 20 um between grains and 10 um with the plates.
 PLATES = HEADER.format(boundary="{bc} {bc} {bc}") + """
@@ -66,8 +66,7 @@ def hertz(overlap, r_eff):
 
 
 def last_row(out, words):
-    rows = [line.split() for line in out.splitlines() if len(line.split()) == len(words) + 1 and line.split()[0].isdigit()]
-    return dict(zip(words, map(float, rows[-1][1:])))
+    return dict(zip(words, thermo_rows(out, len(words) + 1)[-1][1:]))
 
 
 def plates(suffuse):
