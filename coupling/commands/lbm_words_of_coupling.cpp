@@ -198,9 +198,10 @@ D::W substeps_word() {
 }
 
 Line couple_line() {
-  const NumberWord virtual_mass{"virtual_mass", "CV", "", between(0, 100),
-                                "inertia added to both sides of a grain's motion, in displaced water; a "
-                                "sphere's is 0.5"};
+  const NumberWord virtual_mass{
+      "virtual_mass", "CV", "", between(0, 100),
+      "how much of the water's answer to a grain's motion is foreseen, in displaced water; a "
+      "sphere's is 0.5"};
   const NumberWord max_mach{"max_mach", "MA", "", positive_up_to(1), "the run ends above"};
   Line line{.name = "couple", .meaning = "how water and grains meet"};
   line.words = {

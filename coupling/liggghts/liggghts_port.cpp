@@ -138,6 +138,7 @@ void LiggghtsPort::advance(int substeps) {
   keep_memory();
   if (reads_loads(substeps)) fix_->loads_changed();
   make_steps(substeps);
+  fix_->interval_over();
 }
 
 void LiggghtsPort::set_up_again() {

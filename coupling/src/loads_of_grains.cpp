@@ -22,6 +22,13 @@ GrainHistory history_of(const GrainRecord& record, bool follows) {
           {vector_at(record.internal_fluid_momentum, 0), vector_at(record.internal_fluid_spin, 0)}};
 }
 
+/// A share of what a grain's virtual drag has withheld, as a force over the next fluid step.
+void give_back(double* withheld, double* returned, double fluid_step) {
+  const Vec3 impulse = kReturnedShare * vector_at(withheld, 0);
+  keep(returned, impulse / fluid_step);
+  keep(withheld, vector_at(withheld, 0) - impulse);
+}
+
 }  // namespace
 
 /// Exchange and internal momentum of each sphere's cells on all ranks, summed at its owner, in SI.
@@ -68,17 +75,11 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const Load load = hydrodynamic_load(surface, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
-    if (before.known) {
-      const auto follow = [&](double* mean, const Vec3& change) {
-        const Vec3 past = vector_at(mean, 0);
-        keep(mean, past + kPredictionRate * (change / rule.time_passed - past));
-      };
-      follow(record.acceleration, now.velocity - before.velocity);
-      follow(record.angular_acceleration, now.angular_velocity - before.angular_velocity);
-    }
-    const VirtualInertia added = virtual_inertia(virtual_rule_, now.radius, grains.mass[n]);
-    record.virtual_mass = added.mass;
-    record.virtual_moment = added.moment;
+    const VirtualInertia foreseen = virtual_inertia(virtual_rule_, now.radius, grains.mass[n]);
+    record.virtual_drag = 2 * foreseen.mass / units_.time_step();
+    record.virtual_spin_drag = 2 * foreseen.moment / units_.time_step();
+    give_back(record.withheld_impulse, record.returned_force, units_.time_step());
+    give_back(record.withheld_spin, record.returned_torque, units_.time_step());
     keep(record.velocity, now.velocity);
     keep(record.angular_velocity, now.angular_velocity);
     keep(record.surface_force, surface.force);
@@ -150,12 +151,9 @@ void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
     if (wet) force -= displaced * gravity;
     torque.setZero();
     GrainRecord& record = memory.record[n];
-    // Added inertia resists: an acceleration on the other side would lag and feed the contacts' vibrations.
-    for (int a = 0; a < 3; ++a) record.acceleration[a] = record.angular_acceleration[a] = 0;
     const double added =
         settings_.virtual_mass ? *settings_.virtual_mass * displaced : method_->virtual_masses()[grain];
-    record.virtual_mass = wet ? added : 0;
-    record.virtual_moment = 0;
+    record.added_mass = wet ? added : 0;
     record.known = 1;
   }
   loads_step_ = fluid_.steps();

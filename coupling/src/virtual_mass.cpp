@@ -12,10 +12,11 @@
 namespace suffuse::coupling {
 
 namespace {
-/// Virtual mass over the estimated response.
-constexpr double kMargin = 1.5;
 /// k of the viscosity-independent weighting where it is found cell by cell, for spheres of about a cell.
 constexpr double kUsualCoefficient = kLargestCoefficient;
+/// In the pores of a bed the answer to a grain's turning is some times that of a lone sphere: there its
+/// cells' coefficient is largest.
+constexpr double kAmongNeighbours = 4;
 /// A sphere below two cells lies in so many of them in the mean, and covers no more of each.
 constexpr double kCellsOfAPoint = 4, kLargestFraction = 0.35;
 
@@ -31,7 +32,7 @@ Response response_of(const VirtualMassRule& rule, double radius, double mass) {
   const double of_cells =
       cell_response_coefficient(a, rule.cells, rule.relaxation_time) * std::max(1., displaced / mass);
   return {std::min(response_coefficient(a, viscosity), of_cells) * displaced,
-          std::min(rotational_response_coefficient(a, viscosity), of_cells) * displaced};
+          std::min(kAmongNeighbours * rotational_response_coefficient(a, viscosity), of_cells) * displaced};
 }
 
 }  // namespace
@@ -66,8 +67,8 @@ VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, doubl
     return {added, added * arm};
   }
   const Response response = response_of(rule, radius, mass);
-  return {response.moving > kSafeResponse * mass ? kMargin * response.moving : 0.,
-          response.turning > kSafeResponse * mass ? kMargin * response.turning * arm : 0.};
+  return {std::max(0., response.moving - kSafeResponse * mass),
+          std::max(0., response.turning - kSafeResponse * mass) * arm};
 }
 
 }  // namespace suffuse::coupling

@@ -11,7 +11,6 @@
 #include "comm.h"
 #include "memory.h"
 #include "modify.h"
-#include "neighbor.h"
 #include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
@@ -95,13 +94,13 @@ void FixHydrodynamicForce::init() {
 }
 
 void FixHydrodynamicForce::setup(int flag) {
-  stale_ = true;
   post_force(flag);
   setting_up_ = true;
 }
 
 void FixHydrodynamicForce::pre_initial_integrate() {
   finish_setup();
+  if (in_interval_) withhold(update->dt);
 }
 
 /// The shares multiply the sum of all forces: once every fix has been set up, before the first half step.
@@ -110,36 +109,55 @@ void FixHydrodynamicForce::finish_setup() {
   setting_up_ = false;
 }
 
-FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
+/// Without the drag: where the grain has the velocity that it refers to.
+FixHydrodynamicForce::Addition FixHydrodynamicForce::load_alone(int i) const {
   const GrainRecord& record = records_[static_cast<std::size_t>(i)];
-  const double mass = record.virtual_mass, moment = record.virtual_moment;
   Addition ours;
   for (int a = 0; a < 3; ++a) {
-    ours.force[a] = array_atom[i][a] + mass * record.acceleration[a];
-    ours.torque[a] = array_atom[i][3 + a] + moment * record.angular_acceleration[a];
+    ours.force[a] = array_atom[i][a] + record.returned_force[a];
+    ours.torque[a] = array_atom[i][3 + a] + record.returned_torque[a];
   }
-  const double radius = atom->radius[i], own = atom->rmass[i],
-               own_moment = suffuse::micromechanics::sphere_inertia(own, radius);
-  ours.force_share = own / (own + mass);
-  ours.torque_share = own_moment / (own_moment + moment);
+  const double own = atom->rmass[i];
+  ours.force_share = own / (own + record.added_mass);
+  ours.torque_share = 1;
   return ours;
 }
 
-/// Anew where grains have changed places or loads; in between a grain's own values stay where they are.
-void FixHydrodynamicForce::refresh_additions() {
-  const auto owned = static_cast<std::size_t>(atom->nlocal);
-  if (!stale_ && neighbor->ago > 0 && applied_.size() == owned) return;
-  applied_.resize(owned);
-  for (int i = 0; i < atom->nlocal; ++i)
-    if ((atom->mask[i] & groupbit) != 0) applied_[static_cast<std::size_t>(i)] = addition(i);
-  stale_ = false;
+FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
+  Addition ours = load_alone(i);
+  const GrainRecord& record = records_[static_cast<std::size_t>(i)];
+  if (!in_interval_ || (record.virtual_drag == 0 && record.virtual_spin_drag == 0)) return ours;
+  const double *v = atom->v[i], *omega = atom->omega[i];
+  for (int a = 0; a < 3; ++a) {
+    ours.force[a] -= record.virtual_drag * (v[a] - record.velocity[a]);
+    ours.torque[a] -= record.virtual_spin_drag * (omega[a] - record.angular_velocity[a]);
+  }
+  const double own = atom->rmass[i], half_step = 0.5 * update->dt,
+               moment = suffuse::micromechanics::sphere_inertia(own, atom->radius[i]);
+  ours.force_share = own / (own + record.added_mass + half_step * record.virtual_drag);
+  ours.torque_share = moment / (moment + half_step * record.virtual_spin_drag);
+  return ours;
+}
+
+/// What the drag takes in so much time, with the velocities as they are.
+void FixHydrodynamicForce::withhold(double seconds) {
+  for (int i = 0; i < atom->nlocal; ++i) {
+    GrainRecord& record = records_[static_cast<std::size_t>(i)];
+    if ((atom->mask[i] & groupbit) == 0) continue;
+    const double *v = atom->v[i], *omega = atom->omega[i];
+    for (int a = 0; a < 3; ++a) {
+      record.withheld_impulse[a] += seconds * record.virtual_drag * (v[a] - record.velocity[a]);
+      record.withheld_spin[a] += seconds * record.virtual_spin_drag * (omega[a] - record.angular_velocity[a]);
+    }
+  }
 }
 
 void FixHydrodynamicForce::post_force(int) {
-  refresh_additions();
+  applied_.resize(static_cast<std::size_t>(atom->nlocal));
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
-    const Addition& ours = applied_[static_cast<std::size_t>(i)];
+    Addition& ours = applied_[static_cast<std::size_t>(i)];
+    ours = addition(i);
     for (int a = 0; a < 3; ++a) {
       atom->f[i][a] += ours.force[a];
       atom->torque[i][a] += ours.torque[a];
@@ -161,6 +179,7 @@ void FixHydrodynamicForce::pre_final_integrate() {
 
 void FixHydrodynamicForce::loads_changed() {
   finish_setup();
+  in_interval_ = true;
   const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size()));
   if (!constraints_.empty()) {
     change_constrained(owned);
@@ -169,7 +188,7 @@ void FixHydrodynamicForce::loads_changed() {
   for (int i = 0; i < owned; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     Addition& ours = applied_[static_cast<std::size_t>(i)];
-    const Addition now = addition(i);
+    const Addition now = load_alone(i);
     for (int a = 0; a < 3; ++a) {
       double &f = atom->f[i][a], &torque = atom->torque[i][a];
       f = now.force_share * (f / ours.force_share - ours.force[a] + now.force[a]);
@@ -203,7 +222,7 @@ void FixHydrodynamicForce::change_constrained(int owned) {
     const Addition& ours = applied_[static_cast<std::size_t>(i)];
     there[at] /= ours.force_share;
     there[at + 3] /= ours.torque_share;
-    const Addition now = addition(i);
+    const Addition now = load_alone(i);
     f = now.force[a] - ours.force[a];
     torque = now.torque[a] - ours.torque[a];
   });
@@ -215,12 +234,19 @@ void FixHydrodynamicForce::change_constrained(int owned) {
   });
   constrain();
   each([&](int i, int, double& f, double& torque, std::size_t at) {
-    const Addition now = grouped(i) ? addition(i) : Addition{{}, {}, 1, 1};
+    const Addition now = grouped(i) ? load_alone(i) : Addition{{}, {}, 1, 1};
     f = now.force_share * (there[at] + (change[at] - f));
     torque = now.torque_share * (there[at + 3] + (change[at + 3] - torque));
   });
   for (int i = 0; i < owned; ++i)
-    if (grouped(i)) applied_[static_cast<std::size_t>(i)] = addition(i);
+    if (grouped(i)) applied_[static_cast<std::size_t>(i)] = load_alone(i);
+}
+
+/// Verlet's steps give a force half before its instant and half after: the last one of an interval counts
+/// half, and the first one is zero.
+void FixHydrodynamicForce::interval_over() {
+  if (in_interval_) withhold(0.5 * update->dt);
+  in_interval_ = false;
 }
 
 double* FixHydrodynamicForce::load() {
@@ -273,13 +299,11 @@ void FixHydrodynamicForce::grow_arrays(int nmax) {
 void FixHydrodynamicForce::copy_arrays(int from, int to, int) {
   std::copy_n(array_atom[from], kLoadValues, array_atom[to]);
   records_[static_cast<std::size_t>(to)] = records_[static_cast<std::size_t>(from)];
-  stale_ = true;
 }
 
 void FixHydrodynamicForce::set_arrays(int i) {
   std::fill_n(array_atom[i], kLoadValues, 0.);
   records_[static_cast<std::size_t>(i)] = {};
-  stale_ = true;
 }
 
 int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
@@ -291,7 +315,6 @@ int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
 int FixHydrodynamicForce::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, kLoadValues, array_atom[i]);
   std::memcpy(&records_[static_cast<std::size_t>(i)], buffer + kLoadValues, sizeof(GrainRecord));
-  stale_ = true;
   return kValues;
 }
 

@@ -69,8 +69,10 @@ class FixHydrodynamicForce : public Fix {
   enum class Fluid { flows, rests };
   void set_fluid_time(double seconds, Fluid fluid);
 
-  /// Brings the forces that the next half step of integration starts with up to date with the loads.
+  /// A fluid step gave these loads: brings the forces that the next half step of integration starts with up
+  /// to date. From here to `interval_over` the virtual drag of the records acts beside them.
   void loads_changed();
+  void interval_over();
 
   /// Copies velocities and angular velocities of owned grains to their ghosts. LIGGGHTS leaves the ghosts'
   /// half a step behind. Collective.
@@ -82,14 +84,16 @@ class FixHydrodynamicForce : public Fix {
   void sum_over_ghosts(double* values);
 
  private:
-  /// What this fix adds to a grain's force and torque: the load, and the virtual inertia times the last
-  /// acceleration. The sum of all forces is then multiplied by m/(m + m_virtual), and so with the torque.
+  /// What this fix adds to a grain's force and torque: the load, what is returned and, within an interval,
+  /// the virtual drag. That is implicit in the half step of velocity that follows, for which the sum of all
+  /// forces is multiplied by m/(m + added mass + drag dt/2), and so with the torque.
   struct Addition {
     double force[3], torque[3];
     double force_share, torque_share;
   };
+  Addition load_alone(int i) const;
   Addition addition(int i) const;
-  void refresh_additions();
+  void withhold(double seconds);
   void change_constrained(int owned);
   void finish_setup();
   void require_records_of_this_version();
@@ -97,7 +101,7 @@ class FixHydrodynamicForce : public Fix {
   std::vector<suffuse::GrainRecord> records_;
   std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
-  bool stale_ = true;              // grains have changed places since then
+  bool in_interval_ = false;       // between a fluid step and the next
   bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
   int foreign_records_ = 0;  // of a restart file, that this version cannot read

@@ -2,8 +2,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
+#include <random>
 
 #include "coupled_scene.h"
+#include "suffuse/common/error.h"
 
 using namespace suffuse;
 using namespace suffuse::coupling;
@@ -73,4 +77,81 @@ TEST_CASE("free grains stay steady at every density, size, viscosity and speed",
   for (const double diameter : {1., 2., 5., 12.})
     for (const double ratio : {0.1, 0.3, 0.9, 1.16, 2.65, 7.8})
       for (const double speed : {0.01, 0.05}) check_flight(tau, diameter, ratio, speed);
+}
+
+namespace {
+
+/// Grains of quartz in a dense bed, each on a spring of its own that stands for its contacts.
+struct Bed {
+  double cells = 3;  ///< a diameter
+  double relaxation_time = 0.53;
+  double restitution = 0.8;  ///< of the contact that the spring stands for
+  std::optional<double> virtual_mass = {};
+};
+
+/// By what factor the amplitude of the bed's vibrations changes in a fluid step; `phase`: that of the spring
+/// alone, rad a fluid step.
+double growth(const Bed& bed, double phase) {
+  constexpr double fraction = 0.62;
+  const double edge = std::round(2 * bed.cells * std::cbrt(4 * std::numbers::pi / 6 / fraction));
+  const int cells = static_cast<int>(edge);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> speed(-1e-5, 1e-5);
+  std::vector<PrescribedGrains::Grain> list;
+  for (int n = 0; n < 32; ++n) {  // 2 x 2 x 2 face-centred cubes
+    constexpr double at[4][3] = {{1, 1, 1}, {3, 3, 1}, {3, 1, 3}, {1, 3, 3}};
+    const double* corner = at[n % 4];
+    const Vec3 cube(n / 4 % 2, n / 8 % 2, n / 16);
+    auto grain = sphere_at(edge / 8 * (4 * cube + Vec3(corner[0], corner[1], corner[2])), 0.5 * bed.cells);
+    grain.velocity = Vec3(speed(random), speed(random), speed(random));
+    list.push_back(grain);
+  }
+  CoupledSettings settings = lattice_settings(bed.relaxation_time, default_solids());
+  settings.virtual_mass = bed.virtual_mass;
+  Scene scene(settings, {cells, cells, cells}, list);
+  scene.grains.mobile = scene.grains.free = true;
+  const double mass = sphere_volume(0.5 * bed.cells) * list[0].density,
+               log_of_restitution = std::log(bed.restitution);
+  scene.grains.spring = {mass * phase * phase, -2 * mass * phase * log_of_restitution /
+                                                   std::hypot(std::numbers::pi, log_of_restitution)};
+  const auto amplitude = [&] {
+    double square = 0;
+    for (std::size_t n = 0; n < scene.grains.list.size(); ++n)
+      square += scene.grains.list[n].velocity.squaredNorm() +
+                phase * phase * scene.grains.displacement_of(n).squaredNorm();
+    return std::sqrt(square);
+  };
+  constexpr int first = 30, steps = 60;
+  scene.run(first);
+  const double before = amplitude();
+  scene.run(steps);
+  return std::pow(amplitude() / before, 1. / steps);
+}
+
+}  // namespace
+
+TEST_CASE("grains that swing on their contacts in a dense bed come to rest, however stiff the contacts") {
+  Bed bed;
+  bed.cells = GENERATE(2.5, 3., 5.);
+  bed.relaxation_time = GENERATE(0.51, 0.6);
+  for (const double phase : {0.25, 0.5, 1.5, 2.5, 3., 3.5, 4., 5., 7., 10.}) {
+    const double change = growth(bed, phase);
+    INFO(bed.cells << " cells, tau " << bed.relaxation_time << ", " << phase << " rad a step: " << change);
+    CHECK(change < 1);
+  }
+}
+
+TEST_CASE("growth of vibrations by phase, for docs/decisions/virtual-mass.md", "[.table]") {
+  std::printf("cells,tau,foreseen,phase,growth\n");
+  for (const double cells : {2.25, 3., 5., 8.})
+    for (const double tau : {0.505, 0.51, 0.53, 0.6})
+      for (const std::optional<double>& virtual_mass : {std::optional<double>(0.), std::optional<double>()})
+        for (const double phase : {0.1, 0.25, 0.5, 1., 1.5, 2., 2.5, 3., 3.5, 4., 5., 7., 10.}) {
+          std::printf("%g,%g,%s,%g,", cells, tau, virtual_mass ? "nothing" : "auto", phase);
+          try {
+            std::printf("%.3f\n", growth({cells, tau, 1., virtual_mass}, phase));
+          } catch (const suffuse::LostRun&) {
+            std::printf("lost\n");
+          }
+        }
 }

@@ -24,8 +24,8 @@ def largest_difference(one, two, name):
 
 
 def check_settling_sphere(program):
-    """One DEM step a fluid step, then three: velocity-Verlet under a force that is constant over the fluid's step gives the
-    same motion."""
+    """One DEM step a fluid step, then three: velocity-Verlet under the load, which is constant over the fluid's step, gives the
+    same motion; under the virtual drag, which is not, another by what the steps' integration differs (a thousandth here)."""
     scene = SCENES / "05_settling_sphere" / "in.settling_sphere"
     case = {"case": "E4", "resolution": 3}
     with scratch() as folder:
@@ -36,7 +36,7 @@ def check_settling_sphere(program):
         cut = columns(path / "settling.csv")
     expect(whole["time_s"] == cut["time_s"], "samples at other times")
     difference = largest_difference(whole, cut, "speed_m_per_s")
-    expect(difference < 1e-9, f"the sphere's speed differs by {difference} m/s of 0.1")
+    expect(difference < 2e-4, f"the sphere's speed differs by {difference} m/s of 0.1")
 
 
 def levels_of(gradient):

@@ -174,7 +174,7 @@ def check_foreign_records(program, folder):
     """A fix's record of another version, of another length, or changed: one line, on all ranks, whoever has the grains."""
     whole = (folder / "start").read_bytes()
     mark = whole.index(b"suffuse\n")
-    grain = whole.index(struct.pack("<dd", 39, 1))  # the length of a grain's record, and its version
+    grain = whole.index(struct.pack("<dd", 46, 2))  # the length of a grain's record, and its version
     text = wet_box(restart="foreign") + "run 0\n"
 
     def with_bytes(at, new):
@@ -186,7 +186,7 @@ def check_foreign_records(program, folder):
                            (with_bytes(mark + 8, struct.pack("<q", 7)), ["= version 7,", "be of version 1"]),
                            (with_bytes(mark + 24, struct.pack("<q", 3)), ["3 values, not 1"]),
                            (with_bytes(mark + 40, struct.pack("<d", 0.5)), ["damaged"]),
-                           (with_bytes(grain + 8, struct.pack("<d", 2)), ["of another layout for 1 grains", "be of version 1"])):
+                           (with_bytes(grain + 8, struct.pack("<d", 1)), ["of another layout for 1 grains", "be of version 2"])):
         (folder / "foreign").write_bytes(changed)
         ends_with_a_sentence(program, text, folder, "foreign", ["fix hydrodynamic/force: record", *words])
     (folder / "foreign").write_bytes(whole)

@@ -14,8 +14,8 @@
 namespace suffuse::coupling {
 
 /// Spheres without a discrete-element code: held, moved at given velocities, or free to follow the fluid's
-/// load, gravity and nothing else. Every rank holds and owns all of them. Images across
-/// periodic faces are made.
+/// load, gravity and, where they have one, a spring to where they began. Every rank holds and owns all of
+/// them. Images across periodic faces are made.
 class PrescribedGrains final : public ParticlePort {
  public:
   struct Grain {
@@ -29,7 +29,10 @@ class PrescribedGrains final : public ParticlePort {
       : box_(box), periodic_(periodic), step_(step), communicator_(communicator), list(std::move(grains)) {
     load_.assign(6 * list.size(), 0);
     records_.assign(list.size(), {});
-    for (Grain& grain : list) grain.id = ++last_id_;
+    for (Grain& grain : list) {
+      grain.id = ++last_id_;
+      anchors_.push_back(grain.position);
+    }
   }
 
   void insert(Grain grain) {
@@ -37,6 +40,7 @@ class PrescribedGrains final : public ParticlePort {
     list.push_back(grain);
     load_.resize(6 * list.size(), 0);
     records_.resize(list.size());
+    anchors_.push_back(grain.position);
   }
   void erase(std::size_t n) {
     const auto cut = [n](auto& values, int each) {
@@ -45,6 +49,7 @@ class PrescribedGrains final : public ParticlePort {
     };
     cut(load_, 6);
     cut(records_, 1);
+    cut(anchors_, 1);
     list.erase(list.begin() + static_cast<std::ptrdiff_t>(n));
   }
 
@@ -99,19 +104,9 @@ class PrescribedGrains final : public ParticlePort {
     if (!mobile) return;
     for (std::size_t n = 0; n < list.size(); ++n) {
       Grain& g = list[n];
-      const double mass = g.density * sphere_volume(g.radius),
-                   inertia = micromechanics::sphere_inertia(mass, g.radius);
       const double time = substeps * step_;
       if (free) {
-        const GrainRecord& past = records_[n];
-        const double added = past.virtual_mass, added_moment = past.virtual_moment;
-        const Vec3 before = Eigen::Map<const Vec3>(past.acceleration),
-                   turning_before = Eigen::Map<const Vec3>(past.angular_acceleration);
-        const Vec3 acceleration = (force_on(n) + mass * gravity + added * before) / (mass + added);
-        const Vec3 turning = (torque_on(n) + added_moment * turning_before) / (inertia + added_moment);
-        g.position += time * (g.velocity + 0.5 * time * acceleration);
-        g.velocity += time * acceleration;
-        g.angular_velocity += time * turning;
+        follow(n, time);
       } else {
         g.position += time * g.velocity;
       }
@@ -123,9 +118,39 @@ class PrescribedGrains final : public ParticlePort {
 
   Vec3 force_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n); }
   Vec3 torque_on(std::size_t n) const { return Eigen::Map<const Vec3>(load_.data() + 6 * n + 3); }
-  double virtual_mass_of(std::size_t n) const { return records_[n].virtual_mass; }
+
+  /// From where a grain began, m. Grains on springs do not cross periodic faces.
+  Vec3 displacement_of(std::size_t n) const { return list[n].position - anchors_[n]; }
 
  private:
+  /// Its load, gravity and spring, and the drag of its record (virtual_mass.h).
+  void follow(std::size_t n, double time) {
+    Grain& g = list[n];
+    GrainRecord& record = records_[n];
+    const auto at = [](double* values) { return Eigen::Map<Vec3>(values); };
+    const double mass = g.density * sphere_volume(g.radius),
+                 inertia = micromechanics::sphere_inertia(mass, g.radius);
+    const int steps = spring.stiffness > 0 ? 200 : 1;  // of a vibration
+    const double step = time / steps;
+    // Implicit at the middle of a step.
+    const auto push = [step](Vec3& velocity, double m, const Vec3& force, double drag, const Vec3& towards,
+                             Eigen::Map<Vec3> withheld) {
+      const Vec3 mean = (m * velocity + 0.5 * step * (force + drag * towards)) / (m + 0.5 * step * drag);
+      withheld += step * drag * (mean - towards);
+      velocity = 2 * mean - velocity;
+      return mean;
+    };
+    for (int k = 0; k < steps; ++k) {
+      const Vec3 held = spring.stiffness * displacement_of(n) + spring.damping * g.velocity;
+      const Vec3 mean =
+          push(g.velocity, mass, force_on(n) + mass * gravity + at(record.returned_force) - held,
+               record.virtual_drag, at(record.velocity), at(record.withheld_impulse));
+      g.position += step * (spring.stiffness > 0 ? g.velocity : mean);
+      push(g.angular_velocity, inertia, torque_on(n) + at(record.returned_torque), record.virtual_spin_drag,
+           at(record.angular_velocity), at(record.withheld_spin));
+    }
+  }
+
   void add(std::size_t n, const Vec3& position) {
     const Grain& g = list[n];
     for (int a = 0; a < 3; ++a) {
@@ -149,12 +174,16 @@ class PrescribedGrains final : public ParticlePort {
   GrainArrays arrays_;
   std::vector<int> id_;
   std::vector<std::size_t> owner_;
+  std::vector<Vec3> anchors_;
 
  public:
   std::vector<Grain> list;
   bool mobile = false;  ///< moved at their velocities
   bool free = false;    ///< with `mobile`: driven by the fluid and gravity
   Vec3 gravity = Vec3::Zero();
+  struct {
+    double stiffness = 0, damping = 0;  ///< N/m, N s/m
+  } spring;                             ///< of every grain that is free
 };
 
 }  // namespace suffuse::coupling

@@ -30,10 +30,9 @@ double fluid_step(const CoupledSettings& settings) {
   return lbm::Units(settings.units).time_step();
 }
 
-/// Fluid and grains, without the fluid that the grains' cells hold and with what the virtual mass keeps:
+/// Fluid and grains, without the fluid that the grains' cells hold and with what the virtual drag withholds:
 /// conserved from the first step on, since
-/// m (v' - v) = (F_exchange + d/dt of the held momentum - m_v (a - a_before)) dt and the mean acceleration
-/// moves by kPredictionRate (a - a_before).
+/// m (v' - v) + W' - W = (F_exchange + d/dt of the held momentum) dt.
 Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grains) {
   const lbm::Units& units = simulation.units();
   const double cell = units.density() * std::pow(units.spacing(), 3);
@@ -46,9 +45,7 @@ Vec3 total_momentum(const CoupledSimulation& simulation, PrescribedGrains& grain
     const Vec3 held = sphere_volume(g.radius) * units.density() * past(record.velocity) +
                       past(record.internal_fluid_momentum);
     sum += sphere_volume(g.radius) * g.density * g.velocity - held;
-    const Vec3 change = g.velocity - past(record.velocity),
-               before = units.time_step() * past(record.acceleration);
-    sum += record.virtual_mass * (before / kPredictionRate + (change - before));
+    sum += past(record.withheld_impulse);
   }
   return sum;
 }

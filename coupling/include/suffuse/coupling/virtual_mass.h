@@ -6,14 +6,17 @@
 
 namespace suffuse::coupling {
 
-/// How much inertia of fluid is added to both sides of a grain's equations of motion,
+/// How much of the fluid's answer to a grain's motion is foreseen. The fluid answers a sudden change of a
+/// sphere's velocity with C m_f times that change, but only in the steps after: the load of a fluid step,
+/// which follows from the velocities before it, is held until the next. A light grain runs away from that,
+/// and any grain that swings on its contacts about once a step is pushed by it
+/// (docs/decisions/virtual-mass.md). So within the step a drag acts towards the velocity u_n at its
+/// beginning,
 ///
-///   (m + Cv m_f) a = F + Cv m_f a_before   (a_before: running mean of the acceleration, kPredictionRate),
+///   m dv/dt = F - c (v - u_n) + r W/dt,   c = 2 Cv m_f/dt,   W' = (1 - r) W + integral of c (v - u_n),
 ///
-/// and the same with moments of inertia (docs key: schwarz2015). The exact motion changes by a lag of some
-/// steps only, but the explicit exchange does not: the fluid answers a sudden change of a sphere's velocity
-/// with C m_f times that change, part of it at once and part in the steps after. A light grain follows only
-/// with a virtual mass of about that size, and only if a_before is slower than the answer.
+/// and the same with moments of inertia. What it takes, W, the grain gets back, a share r = kReturnedShare a
+/// step: grain and fluid keep their momentum, and a motion that lasts for many steps does not change.
 struct VirtualMassRule {
   /// The same Cv for translation and rotation of every grain (0: none); otherwise the estimate of C, for the
   /// grains that need it.
@@ -24,15 +27,15 @@ struct VirtualMassRule {
   lbm::PartialSolidSettings cells;
 };
 
+/// Cv m_f and its moment: by how much the drag increases a free grain's inertia over a fluid step.
 struct VirtualInertia {
   double mass = 0;    ///< kg
   double moment = 0;  ///< kg m^2
 };
 
-/// a_before moves towards the last step's acceleration by this share a step. With 1 (docs key: schwarz2015)
-/// spheres of one or two cells at relaxation time 1.5 run away with any virtual mass, at 0.1 times the
-/// fluid's density already from relaxation time 0.6 on: the drag of the step before pushes them over.
-inline constexpr double kPredictionRate = 0.25;
+/// What is given back lags behind and pushes slow vibrations on, the more of it the more: 0.1 leaves light
+/// beds at rest with twice the energy. With 0.02 a sphere of half the water's density starts too slowly.
+inline constexpr double kReturnedShare = 0.07;
 
 /// C of a sphere of `radius` cells just after a change of velocity: the potential-flow added mass 1/2, of
 /// a sphere half a cell larger since it holds whole cells, Basset's impulse 9 sqrt(nu/pi)/a and Stokes' drag
@@ -50,18 +53,17 @@ double cell_response_coefficient(double radius, const lbm::PartialSolidSettings&
 /// The same for rotation, in moments of inertia of the displaced fluid: 10 sqrt(nu/pi)/a + 15 nu/a^2.
 double rotational_response_coefficient(double radius, double viscosity);
 
-/// Share of a grain's mass from which on the fluid's answer to a change of its velocity, C m_f, is taken over
-/// to the grain's side.
-inline constexpr double kSafeResponse = 0.4;
+/// Of an answer C m_f the part beyond this share of a grain's mass is foreseen. A grain follows the rest by
+/// itself, and what need not be foreseen is better left: with 0 beds of quartz tremble at rest, with 0.5
+/// those whose contacts rebound at 0.95 (docs/decisions/virtual-mass.md).
+inline constexpr double kSafeResponse = 0.38;
 
 /// C m_f/m of a sphere of `radius` (m) and `mass` (kg), translation or rotation, whichever is larger.
 double virtual_mass_number(const VirtualMassRule& rule, double radius, double mass);
 
 /// Of a sphere of `radius` (m) and `mass` (kg): by the smaller of response_coefficient and
-/// cell_response_coefficient, the latter m_f/m times for grains that are lighter than the fluid. The estimate
-/// is for a lone sphere; grains get 1.5 times it from C m_f > 0.4 m on, as neighbours make the fluid's answer
-/// stiffer. More would do harm: after a collision a grain goes on being accelerated by what the virtual mass
-/// has more than the fluid's answer.
+/// cell_response_coefficient, the latter m_f/m times for grains that are lighter than the fluid, less
+/// kSafeResponse of the mass.
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass);
 
 }  // namespace suffuse::coupling
