@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* kWho = "lbm accuracy";
 constexpr double kLeastCells = 2, kMostCells = 8, kStepOfCells = 0.05;
-/// A bed of 1,060 free grains trembles on 2.84 cells a diameter and steps of 0.05 ms (stresses between layers
-/// are not those of its weight), with any law of the coefficient; not with steps of a third of that.
-constexpr double kLeastCellsOfFreeGrains = 3.5;
+/// Beds of free grains were shown to rest, and to fluidise at Terzaghi's gradient, on no fewer
+/// (docs/decisions/virtual-mass.md).
+constexpr double kLeastCellsOfFreeGrains = 2.8;
 constexpr double kFinest = 0.014, kCoarsest = 0.3;
 /// Share of the accuracy that the time step's errors may take.
 constexpr double kShareOfTimeStep = 1. / 3;

@@ -148,7 +148,7 @@ TEST_CASE("Where the averaged flow cannot be had, it says why") {
 
 TEST_CASE("Forces on single grains take more cells than the permeability") {
   AccuracyScene scene = deep_bed();
-  CHECK(choose_for_accuracy({0.1}, scene).cells >= 3.5);  // such a bed trembles on coarser ones
+  CHECK(choose_for_accuracy({0.1}, scene).cells >= 2.8);  // on fewer no bed of free grains was tried
   scene.falling = 0;
   const AccuracyChoice whole = choose_for_accuracy({0.1}, scene),
                        single = choose_for_accuracy({0.1, AccuracyOf::forces}, scene);

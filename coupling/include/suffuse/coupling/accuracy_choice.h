@@ -82,7 +82,7 @@ struct AccuracyChoice {
 /// time step's errors leave: those get a third of the accuracy, in squares a ninth.
 ///
 /// - cells a diameter: expected_permeability_error(), and expected_force_error() where forces are asked for;
-///   2 to 8, and 3.5 or more where grains may move; a whole number of cells along each axis;
+///   2 to 8, and 2.8 or more where grains may move; a whole number of cells along each axis;
 /// - time step: the largest with Mach² and half of the density difference in that third, Mach below 0.2 (the
 ///   run stops at 0.3), and a relaxation time of at most 1 (above, velocities lag near walls);
 /// - float, whose five digits agree with double's, where the water moves by more than 1e-4 cells a step, as
@@ -97,7 +97,7 @@ AccuracyChoice choose_for_accuracy(const AccuracyWish& wish, const AccuracyScene
 /// Is its expected error so far below the share that nine of ten packings keep to it?
 bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice);
 
-/// Cells a diameter below which nothing is chosen: 2, or 3.5 where grains may move.
+/// Cells a diameter below which nothing is chosen: 2, or 2.8 where grains may move.
 double least_cells(const AccuracyScene& scene);
 
 /// The least cells a diameter that keep to the share; none where no lattice does.
