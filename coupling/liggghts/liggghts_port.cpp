@@ -123,9 +123,11 @@ double LiggghtsPort::time_step() const {
   return lmp_->update->dt;
 }
 
-/// With a part of the grains: writes what was put in memory() back to the fix.
+/// With a part of the grains: writes what was put in memory() back to the fix. Where a grain has moved
+/// elsewhere since, a set-up has come between, and nobody had written to its copy.
 void LiggghtsPort::keep_memory() {
   for (std::size_t n = 0; n < load_.size() / FixHydrodynamicForce::kLoadValues; ++n) {
+    if (local_[n] >= lmp_->atom->nlocal || lmp_->atom->tag[local_[n]] != id_[n]) continue;
     std::copy_n(&load_[FixHydrodynamicForce::kLoadValues * n], FixHydrodynamicForce::kLoadValues,
                 fix_->load() + FixHydrodynamicForce::kLoadValues * local_[n]);
     fix_->records()[local_[n]] = records_[n];

@@ -254,7 +254,7 @@ void CoupledSimulation::step(bool loads_asked_for) {
   ledger_.force += fluid_.force();
   ledger_.force_magnitude += fluid_.force().norm();
   if (loads_wanted)
-    keep_ledger(hand_loads_over());
+    keep_ledger(hand_loads_over(true));
   else
     ++ledger_.steps_unknown;
   const Stopwatch watch(times_.grains);

@@ -29,6 +29,15 @@ void give_back(double* withheld, double* returned, double fluid_step) {
   keep(withheld, vector_at(withheld, 0) - impulse);
 }
 
+/// Of water that is no more, or of another method.
+void forget_foreseen(GrainRecord& record) {
+  record.added_mass = record.virtual_drag = record.virtual_spin_drag = 0;
+  for (int a = 0; a < 3; ++a) {
+    record.withheld_impulse[a] = record.withheld_spin[a] = 0;
+    record.returned_force[a] = record.returned_torque[a] = 0;
+  }
+}
+
 }  // namespace
 
 /// Exchange and internal momentum of each sphere's cells on all ranks, summed at its owner, in SI.
@@ -50,7 +59,7 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
   grains_.sum_over_copies(sums_);
 }
 
-void CoupledSimulation::hand_over(const GrainArrays& grains) {
+void CoupledSimulation::hand_over(const GrainArrays& grains, bool steps_follow) {
   LoadRule rule;
   rule.fluid_density = units_.density();
   // The memory may hold loads of another fluid: those of no step of this one are not referred to.
@@ -75,11 +84,8 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const Load load = hydrodynamic_load(surface, now, before, rule);
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
-    const VirtualInertia foreseen = virtual_inertia(virtual_rule_, now.radius, grains.mass[n]);
-    record.virtual_drag = 2 * foreseen.mass / units_.time_step();
-    record.virtual_spin_drag = 2 * foreseen.moment / units_.time_step();
-    give_back(record.withheld_impulse, record.returned_force, units_.time_step());
-    give_back(record.withheld_spin, record.returned_torque, units_.time_step());
+    if (!before.known) forget_foreseen(record);
+    if (steps_follow) foresee(record, now.radius, grains.mass[n]);
     keep(record.velocity, now.velocity);
     keep(record.angular_velocity, now.angular_velocity);
     keep(record.surface_force, surface.force);
@@ -89,6 +95,17 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     record.known = 1;
   }
   loads_step_ = fluid_.steps();
+}
+
+/// The water's answer in the next step, and what is given back in it.
+void CoupledSimulation::foresee(GrainRecord& record, double radius, double mass) const {
+  const VirtualInertia added = virtual_inertia(virtual_rule_, radius, mass);
+  const double step = units_.time_step(), moment = micromechanics::sphere_inertia(mass, radius);
+  record.virtual_drag = virtual_drag(added.mass, mass, substeps_, step);
+  record.virtual_spin_drag =
+      effects_.rotation != Switch::off ? virtual_drag(added.moment, moment, substeps_, step) : 0;
+  give_back(record.withheld_impulse, record.returned_force, step);
+  give_back(record.withheld_spin, record.returned_torque, step);
 }
 
 /// Before a discrete-element code is given what it would choke on.
@@ -115,7 +132,7 @@ void CoupledSimulation::refresh_loads() {
     const Stopwatch watch(times_.exchange);
     mapping_.sum(units_.relaxation_time());
   }
-  hand_loads_over();
+  hand_loads_over(false);
 }
 
 /// What the last step gave to the grains that this rank owns, summed over all ranks that hold cells of them.
@@ -129,12 +146,12 @@ void CoupledSimulation::keep_ledger(int owned) {
 }
 
 /// From the sums of `mapping_`; this rank's grains.
-int CoupledSimulation::hand_loads_over() {
+int CoupledSimulation::hand_loads_over(bool steps_follow) {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
   require_finite(grains);
-  hand_over(grains);
+  hand_over(grains, steps_follow);
   return grains.owned;
 }
 
@@ -153,6 +170,7 @@ void CoupledSimulation::hand_method_loads_over(const GrainArrays& grains) {
     GrainRecord& record = memory.record[n];
     const double added =
         settings_.virtual_mass ? *settings_.virtual_mass * displaced : method_->virtual_masses()[grain];
+    forget_foreseen(record);
     record.added_mass = wet ? added : 0;
     record.known = 1;
   }

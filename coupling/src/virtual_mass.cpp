@@ -60,6 +60,18 @@ double virtual_mass_number(const VirtualMassRule& rule, double radius, double ma
   return std::max(response.moving, response.turning) / mass;
 }
 
+double virtual_drag(double added, double own, int substeps, double fluid_step) {
+  const double ratio = added / own;
+  if (ratio <= 0) return 0;
+  if (substeps == 1) return 2 * added / fluid_step;
+  double x = ratio * (2 + ratio) / (1 + ratio);
+  for (int k = 0; k < 2; ++k) {  // Newton's on 1 - exp(-x) = x/(1 + ratio)
+    const double decay = std::exp(-x), wanted = 1 / (1 + ratio);
+    x -= (1 - decay - wanted * x) / (decay - wanted);
+  }
+  return x * own / fluid_step;
+}
+
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass) {
   const double arm = micromechanics::sphere_inertia(1, radius);
   if (rule.coefficient) {

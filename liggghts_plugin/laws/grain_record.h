@@ -11,11 +11,12 @@ struct GrainRecord {
   double velocity[3], angular_velocity[3];     ///< of the last step, m/s, rad/s
   double surface_force[3], surface_torque[3];  ///< N, N m
   double known;                                ///< 1 once there was such a step
-  /// Inertia that resists beside the grain's own, kg.
+  /// Of the averaged flow: inertia that resists beside the grain's own, kg.
   double added_mass;
-  /// The water's answer as it is foreseen until the next fluid step: a drag towards `velocity` and
-  /// `angular_velocity`, kg/s and kg m^2/s. What it takes is withheld, N s and N m s, and returned bit by bit
-  /// as a force, N and N m (virtual_mass.h). Whoever integrates applies these.
+  /// Of the resolved flow, its answer as it is foreseen until the next fluid step: a drag towards `velocity`
+  /// and `angular_velocity`, kg/s and kg m^2/s. What it takes is withheld, N s and N m s, and returned bit by
+  /// bit as a force, N and N m (virtual_mass.h). Whoever integrates applies these and adds to what is
+  /// withheld.
   double virtual_drag, virtual_spin_drag;
   double withheld_impulse[3], withheld_spin[3];
   double returned_force[3], returned_torque[3];

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numbers>
 #include <string>
 
 #include "atom.h"
@@ -109,13 +108,14 @@ void FixHydrodynamicForce::finish_setup() {
   setting_up_ = false;
 }
 
-/// Without the drag: where the grain has the velocity that it refers to.
+/// Without the drag: where the grain has the velocity that it refers to. What is returned is that of an
+/// interval.
 FixHydrodynamicForce::Addition FixHydrodynamicForce::load_alone(int i) const {
   const GrainRecord& record = records_[static_cast<std::size_t>(i)];
   Addition ours;
   for (int a = 0; a < 3; ++a) {
-    ours.force[a] = array_atom[i][a] + record.returned_force[a];
-    ours.torque[a] = array_atom[i][3 + a] + record.returned_torque[a];
+    ours.force[a] = array_atom[i][a] + (in_interval_ ? record.returned_force[a] : 0);
+    ours.torque[a] = array_atom[i][3 + a] + (in_interval_ ? record.returned_torque[a] : 0);
   }
   const double own = atom->rmass[i];
   ours.force_share = own / (own + record.added_mass);

@@ -122,6 +122,20 @@ def check_ranks_and_restart(program, folder):
     expect(one["solid_force_z_n"][-1] > 1.05 * one["solid_force_z_n"][1], "the flow does not rise")
 
 
+def check_water_of_another_kind(program, folder):
+    """Grains pushed up in water that follows other water, resolved after averaged or averaged after resolved, slow down as in the first
+    water: what the one foresaw or added to their inertia is not left to the other."""
+    lattice = "lbm fluid density 1000 viscosity 1e-6\nlbm lattice {}\nlbm force gravity 0 0 -9.81\nlbm boundary zlo noslip zhi noslip\n"
+    waters = {"averaged": "lbm method averaged\n" + lattice.format(f"spacing {3 * D} timestep 4e-4"),
+              "resolved": "lbm method resolved\n" + lattice.format(f"spacing {D / 3} relaxation_time 0.52")}
+    push = "velocity all set 0 0 0.03\nlbm monitor m every 4e-4 file {}.csv kinetic_energy\nlbm run 4e-3\n"
+    for other, second in (("averaged", "resolved"), ("resolved", "averaged")):
+        for first, name in ((second, "same"), (other, "other")):
+            run(program, folder, bed("start") + waters[first] + "lbm run 1e-2\nlbm clear\n" + waters[second] + push.format(name))
+        same, after = (columns(folder / f"{name}.csv")["grains_kinetic_energy_j"][-1] for name in ("same", "other"))
+        expect(abs(after / same - 1) < 0.05, f"{second} after {other}: {after / same:.3f} of the energy")
+
+
 def check_refusals(program, folder):
     start = bed("start")
     cases = [
@@ -147,6 +161,7 @@ def main():
             check_expansion(program, folder)
             check_step(program, folder)
             check_refusals(program, folder)
+            check_water_of_another_kind(program, folder)
         check_ranks_and_restart(program, folder)
 
 

@@ -71,7 +71,8 @@ class Scene {
  public:
   Scene(const CoupledSettings& settings, const Index3& cells, std::vector<PrescribedGrains::Grain> list,
         MPI_Comm communicator = MPI_COMM_WORLD)
-      : grains(std::move(list), Vec3(cells[0], cells[1], cells[2]), periodic(settings), 1., communicator),
+      : grains(std::move(list), Vec3(cells[0], cells[1], cells[2]), periodic(settings),
+               1. / settings.substeps, communicator),
         simulation(std::make_unique<CoupledSimulation>(
             settings, lbm::Decomposition::balanced(communicator, cells), Vec3::Zero(), grains)) {}
 

@@ -106,7 +106,7 @@ class PrescribedGrains final : public ParticlePort {
       Grain& g = list[n];
       const double time = substeps * step_;
       if (free) {
-        follow(n, time);
+        follow(n, substeps);
       } else {
         g.position += time * g.velocity;
       }
@@ -124,14 +124,13 @@ class PrescribedGrains final : public ParticlePort {
 
  private:
   /// Its load, gravity and spring, and the drag of its record (virtual_mass.h).
-  void follow(std::size_t n, double time) {
+  void follow(std::size_t n, int steps) {
     Grain& g = list[n];
     GrainRecord& record = records_[n];
     const auto at = [](double* values) { return Eigen::Map<Vec3>(values); };
     const double mass = g.density * sphere_volume(g.radius),
                  inertia = micromechanics::sphere_inertia(mass, g.radius);
-    const int steps = spring.stiffness > 0 ? 200 : 1;  // of a vibration
-    const double step = time / steps;
+    const double step = step_;
     // Implicit at the middle of a step.
     const auto push = [step](Vec3& velocity, double m, const Vec3& force, double drag, const Vec3& towards,
                              Eigen::Map<Vec3> withheld) {

@@ -60,7 +60,8 @@ class ParticlePort {
   /// Grains' step, s.
   virtual double time_step() const = 0;
 
-  /// Integrates the grains by so many steps with the loads in memory(). Collective.
+  /// Integrates the grains by so many steps with the loads in memory() and what its records say of the
+  /// water's answer, of which they are told what was withheld. Collective.
   virtual void advance(int substeps) = 0;
 };
 

@@ -13,9 +13,10 @@ namespace suffuse::coupling {
 /// (docs/decisions/virtual-mass.md). So within the step a drag acts towards the velocity u_n at its
 /// beginning,
 ///
-///   m dv/dt = F - c (v - u_n) + r W/dt,   c = 2 Cv m_f/dt,   W' = (1 - r) W + integral of c (v - u_n),
+///   m dv/dt = F - c (v - u_n) + r W/dt,   W' = (1 - r) W + integral of c (v - u_n),
 ///
-/// and the same with moments of inertia. What it takes, W, the grain gets back, a share r = kReturnedShare a
+/// and the same with moments of inertia; c is what holds a free grain back over the step as much as an
+/// inertia Cv m_f would (virtual_drag). What it takes, W, the grain gets back, a share r = kReturnedShare a
 /// step: grain and fluid keep their momentum, and a motion that lasts for many steps does not change.
 struct VirtualMassRule {
   /// The same Cv for translation and rotation of every grain (0: none); otherwise the estimate of C, for the
@@ -27,7 +28,7 @@ struct VirtualMassRule {
   lbm::PartialSolidSettings cells;
 };
 
-/// Cv m_f and its moment: by how much the drag increases a free grain's inertia over a fluid step.
+/// Cv m_f and its moment.
 struct VirtualInertia {
   double mass = 0;    ///< kg
   double moment = 0;  ///< kg m^2
@@ -65,5 +66,10 @@ double virtual_mass_number(const VirtualMassRule& rule, double radius, double ma
 /// cell_response_coefficient, the latter m_f/m times for grains that are lighter than the fluid, less
 /// kSafeResponse of the mass.
 VirtualInertia virtual_inertia(const VirtualMassRule& rule, double radius, double mass);
+
+/// Drag (kg/s, kg m^2/s) that holds a free grain of inertia `own` back over a fluid step as much as `added`
+/// would: 2 added/dt where the grain makes one step of its own meanwhile, which is implicit at its middle;
+/// with more of them own x/dt, (1 - exp(-x))/x = own/(own + added), within 2 %.
+double virtual_drag(double added, double own, int substeps, double fluid_step);
 
 }  // namespace suffuse::coupling
