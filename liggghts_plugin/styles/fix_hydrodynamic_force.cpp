@@ -26,6 +26,11 @@ constexpr int kValues = FixHydrodynamicForce::kLoadValues + suffuse::kGrainRecor
 constexpr int kRestartValues = 2 + kValues;
 /// Of the fix in a restart file: time of the fluid.
 constexpr int kTimeVersion = 1;
+
+bool foresees(const GrainRecord& record) {
+  return record.virtual_drag > 0 || record.virtual_spin_drag > 0;
+}
+
 }  // namespace
 
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
@@ -126,7 +131,7 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::load_alone(int i) const {
 FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
   Addition ours = load_alone(i);
   const GrainRecord& record = records_[static_cast<std::size_t>(i)];
-  if (!in_interval_ || (record.virtual_drag == 0 && record.virtual_spin_drag == 0)) return ours;
+  if (!in_interval_ || !foresees(record)) return ours;
   const double *v = atom->v[i], *omega = atom->omega[i];
   for (int a = 0; a < 3; ++a) {
     ours.force[a] -= record.virtual_drag * (v[a] - record.velocity[a]);
@@ -143,7 +148,7 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
 void FixHydrodynamicForce::withhold(double seconds) {
   for (int i = 0; i < atom->nlocal; ++i) {
     GrainRecord& record = records_[static_cast<std::size_t>(i)];
-    if ((atom->mask[i] & groupbit) == 0) continue;
+    if ((atom->mask[i] & groupbit) == 0 || !foresees(record)) continue;
     const double *v = atom->v[i], *omega = atom->omega[i];
     for (int a = 0; a < 3; ++a) {
       record.withheld_impulse[a] += seconds * record.virtual_drag * (v[a] - record.velocity[a]);
