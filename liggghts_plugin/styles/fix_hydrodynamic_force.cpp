@@ -3,6 +3,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "comm.h"
 #include "memory.h"
 #include "modify.h"
+#include "neighbor.h"
 #include "restart_record.h"
 #include "style_support.h"
 #include "suffuse/common/error.h"
@@ -27,8 +29,12 @@ constexpr int kRestartValues = 2 + kValues;
 /// Of the fix in a restart file: time of the fluid.
 constexpr int kTimeVersion = 1;
 
+/// Has the record a drag, or something to return?
 bool foresees(const GrainRecord& record) {
-  return record.virtual_drag > 0 || record.virtual_spin_drag > 0;
+  double returned = 0;
+  for (int a = 0; a < 3; ++a)
+    returned += std::abs(record.returned_force[a]) + std::abs(record.returned_torque[a]);
+  return record.virtual_drag > 0 || record.virtual_spin_drag > 0 || returned > 0;
 }
 
 }  // namespace
@@ -98,6 +104,7 @@ void FixHydrodynamicForce::init() {
 }
 
 void FixHydrodynamicForce::setup(int flag) {
+  stale_ = true;
   post_force(flag);
   setting_up_ = true;
 }
@@ -125,13 +132,14 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::load_alone(int i) const {
   const double own = atom->rmass[i];
   ours.force_share = own / (own + record.added_mass);
   ours.torque_share = 1;
+  ours.changes = foresees(record);
   return ours;
 }
 
 FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
   Addition ours = load_alone(i);
   const GrainRecord& record = records_[static_cast<std::size_t>(i)];
-  if (!in_interval_ || !foresees(record)) return ours;
+  if (!in_interval_ || !ours.changes) return ours;
   const double *v = atom->v[i], *omega = atom->omega[i];
   for (int a = 0; a < 3; ++a) {
     ours.force[a] -= record.virtual_drag * (v[a] - record.velocity[a]);
@@ -146,9 +154,10 @@ FixHydrodynamicForce::Addition FixHydrodynamicForce::addition(int i) const {
 
 /// What the drag takes in so much time, with the velocities as they are.
 void FixHydrodynamicForce::withhold(double seconds) {
-  for (int i = 0; i < atom->nlocal; ++i) {
+  const int owned = std::min(atom->nlocal, static_cast<int>(applied_.size()));
+  for (int i = 0; i < owned; ++i) {
+    if ((atom->mask[i] & groupbit) == 0 || !applied_[static_cast<std::size_t>(i)].changes) continue;
     GrainRecord& record = records_[static_cast<std::size_t>(i)];
-    if ((atom->mask[i] & groupbit) == 0 || !foresees(record)) continue;
     const double *v = atom->v[i], *omega = atom->omega[i];
     for (int a = 0; a < 3; ++a) {
       record.withheld_impulse[a] += seconds * record.virtual_drag * (v[a] - record.velocity[a]);
@@ -157,12 +166,16 @@ void FixHydrodynamicForce::withhold(double seconds) {
   }
 }
 
+/// Anew for grains that have changed places, or whose drag changes; the others' stay where they are.
 void FixHydrodynamicForce::post_force(int) {
-  applied_.resize(static_cast<std::size_t>(atom->nlocal));
+  const auto all = static_cast<std::size_t>(atom->nlocal);
+  const bool anew = stale_ || neighbor->ago == 0 || applied_.size() != all;
+  applied_.resize(all);
+  stale_ = false;
   for (int i = 0; i < atom->nlocal; ++i) {
     if ((atom->mask[i] & groupbit) == 0) continue;
     Addition& ours = applied_[static_cast<std::size_t>(i)];
-    ours = addition(i);
+    if (anew || ours.changes) ours = addition(i);
     for (int a = 0; a < 3; ++a) {
       atom->f[i][a] += ours.force[a];
       atom->torque[i][a] += ours.torque[a];
@@ -239,7 +252,7 @@ void FixHydrodynamicForce::change_constrained(int owned) {
   });
   constrain();
   each([&](int i, int, double& f, double& torque, std::size_t at) {
-    const Addition now = grouped(i) ? load_alone(i) : Addition{{}, {}, 1, 1};
+    const Addition now = grouped(i) ? load_alone(i) : Addition{{}, {}, 1, 1, false};
     f = now.force_share * (there[at] + (change[at] - f));
     torque = now.torque_share * (there[at + 3] + (change[at + 3] - torque));
   });
@@ -304,11 +317,13 @@ void FixHydrodynamicForce::grow_arrays(int nmax) {
 void FixHydrodynamicForce::copy_arrays(int from, int to, int) {
   std::copy_n(array_atom[from], kLoadValues, array_atom[to]);
   records_[static_cast<std::size_t>(to)] = records_[static_cast<std::size_t>(from)];
+  stale_ = true;
 }
 
 void FixHydrodynamicForce::set_arrays(int i) {
   std::fill_n(array_atom[i], kLoadValues, 0.);
   records_[static_cast<std::size_t>(i)] = {};
+  stale_ = true;
 }
 
 int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
@@ -320,6 +335,7 @@ int FixHydrodynamicForce::pack_exchange(int i, double* buffer) {
 int FixHydrodynamicForce::unpack_exchange(int i, double* buffer) {
   std::copy_n(buffer, kLoadValues, array_atom[i]);
   std::memcpy(&records_[static_cast<std::size_t>(i)], buffer + kLoadValues, sizeof(GrainRecord));
+  stale_ = true;
   return kValues;
 }
 

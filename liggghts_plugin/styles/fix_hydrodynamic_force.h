@@ -90,6 +90,7 @@ class FixHydrodynamicForce : public Fix {
   struct Addition {
     double force[3], torque[3];
     double force_share, torque_share;
+    bool changes;  ///< from step to step: there is a drag, or something is returned
   };
   Addition load_alone(int i) const;
   Addition addition(int i) const;
@@ -101,6 +102,7 @@ class FixHydrodynamicForce : public Fix {
   std::vector<suffuse::GrainRecord> records_;
   std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
+  bool stale_ = true;              // grains have changed places since then
   bool in_interval_ = false;       // between a fluid step and the next
   bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
