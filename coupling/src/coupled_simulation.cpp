@@ -253,10 +253,12 @@ void CoupledSimulation::step(bool loads_asked_for) {
   stepped_ = true;
   ledger_.force += fluid_.force();
   ledger_.force_magnitude += fluid_.force().norm();
-  if (loads_wanted)
-    keep_ledger(hand_loads_over(true));
-  else
+  if (loads_wanted) {
+    keep_ledger(hand_loads_over());
+    foresee();
+  } else {
     ++ledger_.steps_unknown;
+  }
   const Stopwatch watch(times_.grains);
   grains_.advance(substeps_);
 }

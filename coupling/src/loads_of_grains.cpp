@@ -59,7 +59,7 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
   grains_.sum_over_copies(sums_);
 }
 
-void CoupledSimulation::hand_over(const GrainArrays& grains, bool steps_follow) {
+void CoupledSimulation::hand_over(const GrainArrays& grains) {
   LoadRule rule;
   rule.fluid_density = units_.density();
   // The memory may hold loads of another fluid: those of no step of this one are not referred to.
@@ -85,7 +85,6 @@ void CoupledSimulation::hand_over(const GrainArrays& grains, bool steps_follow) 
     Eigen::Map<Vec3>(memory.load + 6 * n) = load.force;
     Eigen::Map<Vec3>(memory.load + 6 * n + 3) = load.torque;
     if (!before.known) forget_foreseen(record);
-    if (steps_follow) foresee(record, now.radius, grains.mass[n]);
     keep(record.velocity, now.velocity);
     keep(record.angular_velocity, now.angular_velocity);
     keep(record.surface_force, surface.force);
@@ -97,15 +96,24 @@ void CoupledSimulation::hand_over(const GrainArrays& grains, bool steps_follow) 
   loads_step_ = fluid_.steps();
 }
 
-/// The water's answer in the next step, and what is given back in it.
-void CoupledSimulation::foresee(GrainRecord& record, double radius, double mass) const {
-  const VirtualInertia added = virtual_inertia(virtual_rule_, radius, mass);
-  const double step = units_.time_step(), moment = micromechanics::sphere_inertia(mass, radius);
-  record.virtual_drag = virtual_drag(added.mass, mass, substeps_, step);
-  record.virtual_spin_drag =
-      effects_.rotation != Switch::off ? virtual_drag(added.moment, moment, substeps_, step) : 0;
-  give_back(record.withheld_impulse, record.returned_force, step);
-  give_back(record.withheld_spin, record.returned_torque, step);
+/// The water's answer in the step that the grains are about to make with these loads, and what is given back
+/// in it.
+void CoupledSimulation::foresee() {
+  const Stopwatch watch(times_.exchange);
+  const GrainArrays grains = grains_.grains();
+  const GrainMemory memory = grains_.memory();
+  const double step = units_.time_step();
+  const bool turning = effects_.rotation != Switch::off;
+  for (int n = 0; n < grains.owned; ++n) {
+    GrainRecord& record = memory.record[n];
+    const double radius = grains.radius[n], mass = grains.mass[n];
+    const VirtualInertia added = virtual_inertia(virtual_rule_, radius, mass);
+    const double moment = micromechanics::sphere_inertia(mass, radius);
+    record.virtual_drag = virtual_drag(added.mass, mass, substeps_, step);
+    record.virtual_spin_drag = turning ? virtual_drag(added.moment, moment, substeps_, step) : 0;
+    give_back(record.withheld_impulse, record.returned_force, step);
+    give_back(record.withheld_spin, record.returned_torque, step);
+  }
 }
 
 /// Before a discrete-element code is given what it would choke on.
@@ -132,7 +140,7 @@ void CoupledSimulation::refresh_loads() {
     const Stopwatch watch(times_.exchange);
     mapping_.sum(units_.relaxation_time());
   }
-  hand_loads_over(false);
+  hand_loads_over();
 }
 
 /// What the last step gave to the grains that this rank owns, summed over all ranks that hold cells of them.
@@ -146,12 +154,12 @@ void CoupledSimulation::keep_ledger(int owned) {
 }
 
 /// From the sums of `mapping_`; this rank's grains.
-int CoupledSimulation::hand_loads_over(bool steps_follow) {
+int CoupledSimulation::hand_loads_over() {
   const GrainArrays grains = grains_.grains();
   const Stopwatch watch(times_.exchange);
   collect_exchange(grains);
   require_finite(grains);
-  hand_over(grains, steps_follow);
+  hand_over(grains);
   return grains.owned;
 }
 

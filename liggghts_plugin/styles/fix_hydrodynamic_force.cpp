@@ -232,15 +232,17 @@ void FixHydrodynamicForce::change_constrained(int owned) {
     for (Fix* fix : constraints_) fix->post_force(0);
   };
   const auto grouped = [this](int i) { return (atom->mask[i] & groupbit) != 0; };
+  std::vector<Addition> next(static_cast<std::size_t>(owned), {{}, {}, 1, 1, false});
+  for (int i = 0; i < owned; ++i)
+    if (grouped(i)) next[static_cast<std::size_t>(i)] = load_alone(i);
   each([&](int i, int a, double& f, double& torque, std::size_t at) {
     there[at] = f;
     there[at + 3] = torque;
     f = torque = 0;
     if (!grouped(i)) return;
-    const Addition& ours = applied_[static_cast<std::size_t>(i)];
+    const Addition &ours = applied_[static_cast<std::size_t>(i)], &now = next[static_cast<std::size_t>(i)];
     there[at] /= ours.force_share;
     there[at + 3] /= ours.torque_share;
-    const Addition now = load_alone(i);
     f = now.force[a] - ours.force[a];
     torque = now.torque[a] - ours.torque[a];
   });
@@ -252,12 +254,12 @@ void FixHydrodynamicForce::change_constrained(int owned) {
   });
   constrain();
   each([&](int i, int, double& f, double& torque, std::size_t at) {
-    const Addition now = grouped(i) ? load_alone(i) : Addition{{}, {}, 1, 1, false};
+    const Addition& now = next[static_cast<std::size_t>(i)];
     f = now.force_share * (there[at] + (change[at] - f));
     torque = now.torque_share * (there[at + 3] + (change[at + 3] - torque));
   });
   for (int i = 0; i < owned; ++i)
-    if (grouped(i)) applied_[static_cast<std::size_t>(i)] = load_alone(i);
+    if (grouped(i)) applied_[static_cast<std::size_t>(i)] = next[static_cast<std::size_t>(i)];
 }
 
 /// Verlet's steps give a force half before its instant and half after: the last one of an interval counts

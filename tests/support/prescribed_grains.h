@@ -104,12 +104,10 @@ class PrescribedGrains final : public ParticlePort {
     if (!mobile) return;
     for (std::size_t n = 0; n < list.size(); ++n) {
       Grain& g = list[n];
-      const double time = substeps * step_;
-      if (free) {
+      if (free)
         follow(n, substeps);
-      } else {
-        g.position += time * g.velocity;
-      }
+      else
+        g.position += substeps * step_ * g.velocity;
       for (int a = 0; a < 3; ++a)
         if (periodic_[static_cast<std::size_t>(a)])
           g.position[a] -= box_[a] * std::floor(g.position[a] / box_[a]);
@@ -130,10 +128,9 @@ class PrescribedGrains final : public ParticlePort {
     const auto at = [](double* values) { return Eigen::Map<Vec3>(values); };
     const double mass = g.density * sphere_volume(g.radius),
                  inertia = micromechanics::sphere_inertia(mass, g.radius);
-    const double step = step_;
     // Implicit at the middle of a step.
-    const auto push = [step](Vec3& velocity, double m, const Vec3& force, double drag, const Vec3& towards,
-                             Eigen::Map<Vec3> withheld) {
+    const auto push = [step = step_](Vec3& velocity, double m, const Vec3& force, double drag,
+                                     const Vec3& towards, Eigen::Map<Vec3> withheld) {
       const Vec3 mean = (m * velocity + 0.5 * step * (force + drag * towards)) / (m + 0.5 * step * drag);
       withheld += step * drag * (mean - towards);
       velocity = 2 * mean - velocity;
@@ -144,7 +141,7 @@ class PrescribedGrains final : public ParticlePort {
       const Vec3 mean =
           push(g.velocity, mass, force_on(n) + mass * gravity + at(record.returned_force) - held,
                record.virtual_drag, at(record.velocity), at(record.withheld_impulse));
-      g.position += step * (spring.stiffness > 0 ? g.velocity : mean);
+      g.position += step_ * (spring.stiffness > 0 ? g.velocity : mean);
       push(g.angular_velocity, inertia, torque_on(n) + at(record.returned_torque), record.virtual_spin_drag,
            at(record.angular_velocity), at(record.withheld_spin));
     }

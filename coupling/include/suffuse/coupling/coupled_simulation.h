@@ -172,14 +172,13 @@ class CoupledSimulation {
   void rest(bool loads_wanted);
   void step_method();
   void hand_method_loads_over(const GrainArrays& grains);
-  int hand_loads_over(bool steps_follow);
+  int hand_loads_over();
   void read_spheres(const GrainArrays& grains);
   bool survey_due(const GrainArrays& grains);
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
-  /// `steps_follow`: grains are about to move with them; otherwise they are asked for late.
-  void hand_over(const GrainArrays& grains, bool steps_follow);
-  void foresee(GrainRecord& record, double radius, double mass) const;
+  void hand_over(const GrainArrays& grains);
+  void foresee();
   void keep_ledger(int owned);
   void require_finite(const GrainArrays& grains) const;
 
