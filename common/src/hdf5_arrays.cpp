@@ -87,6 +87,7 @@ void Hdf5File::create_array(const std::string& dataset, const std::vector<std::s
     const Id id(
         H5Dcreate(handle_->file, dataset.c_str(), type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
         H5Dclose, "create " + dataset + " in " + path_);
+    if (handle_->growth != nullptr) add_bytes_of(id, handle_->new_arrays);
   });
 }
 

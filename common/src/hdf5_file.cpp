@@ -86,16 +86,24 @@ bool Hdf5File::left_open() {
 }
 
 void Hdf5File::close() {
-  together([this] {
-    const hid_t file = std::exchange(handle_->file, -1);
-    if (file >= 0 && H5Fclose(file) < 0) {
-      some_left_open = true;
-      throw std::runtime_error("HDF5: cannot close " + path_);
-    }
-  });
+  try {
+    together([this] {
+      const hid_t file = std::exchange(handle_->file, -1);
+      if (file >= 0 && H5Fclose(file) < 0) throw std::runtime_error("HDF5: cannot close " + path_);
+    });
+  } catch (const UserError&) {
+    some_left_open = true;  // on some rank: all of them end in the same way
+    throw;
+  }
   int rank = 0;
   MPI_Comm_rank(handle_->communicator, &rank);
-  if (rank == 0 && std::exchange(handle_->noted, false)) drop_undo(path_);
+  Hdf5Growth* const growth = std::exchange(handle_->growth, nullptr);
+  if (growth == nullptr || rank != 0) return;
+  drop_undo(path_);
+  std::error_code unknown;
+  growth->length_ = std::filesystem::file_size(path_, unknown);
+  growth->known_ = !unknown;
+  growth->arrays_.insert(growth->arrays_.end(), handle_->new_arrays.begin(), handle_->new_arrays.end());
 }
 
 void Hdf5File::reserve(std::size_t bytes) {
@@ -120,51 +128,61 @@ void add_array_bytes(hid_t group, std::vector<ArrayBytes>& all) {
     const Id object(H5Oopen_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, n, H5P_DEFAULT), H5Oclose,
                     "open an object");
     if (H5Iget_type(object) == H5I_GROUP) add_array_bytes(object, all);
-    if (H5Iget_type(object) != H5I_DATASET) continue;
-    const haddr_t from = H5Dget_offset(object);  // none where there are no values yet, or they lie in pieces
-    if (from != HADDR_UNDEF) all.push_back({from, H5Dget_storage_size(object)});
+    if (H5Iget_type(object) == H5I_DATASET) add_bytes_of(object, all);
   }
-}
-
-/// On one rank: takes back what a killed writer left, and notes what there is.
-void note_growth(const std::string& path, bool anew) {
-  if (anew)
-    drop_undo(path);
-  else
-    undo_if_killed(path);
-  std::vector<ArrayBytes> all;
-  const bool grows = !anew && std::filesystem::exists(path);
-  if (grows) {
-    const Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path);
-    add_array_bytes(file, all);
-  }
-  write_undo(path, grows ? std::filesystem::file_size(path) : 0, std::move(all));
 }
 
 }  // namespace
 
-Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Growth growth)
+void add_bytes_of(hid_t dataset, std::vector<ArrayBytes>& all) {
+  const haddr_t from = H5Dget_offset(dataset);  // none where there are no values yet, or they lie in pieces
+  if (from != HADDR_UNDEF) all.push_back({from, H5Dget_storage_size(dataset)});
+}
+
+/// On one rank: takes back what a killed writer left, and notes what there is.
+void Hdf5File::note_growth(bool anew) {
+  Hdf5Growth& growth = *handle_->growth;
+  if (anew)
+    drop_undo(path_);
+  else
+    undo_if_killed(path_);
+  const bool grows = !anew && std::filesystem::exists(path_);
+  const std::uint64_t length = grows ? std::filesystem::file_size(path_) : 0;
+  handle_->as_left = growth.known_ && growth.length_ == length;
+  if (!handle_->as_left) {
+    growth.known_ = false;
+    growth.arrays_.clear();
+    if (grows) {
+      const Id file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path_);
+      add_array_bytes(file, growth.arrays_);
+    }
+  }
+  write_undo(path_, length, growth.arrays_);
+}
+
+Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Hdf5Growth* growth)
     : handle_(std::make_unique<Handle>()), path_(path) {
   handle_->communicator = communicator;
+  handle_->growth = growth;
   handle_->reads = mode == Mode::read;
   H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);  // what went wrong is thrown, not printed
   int rank = 0, there = 0;
   MPI_Comm_rank(communicator, &rank);
-  if (growth == Growth::noted) {
+  if (growth != nullptr) {
     on_first_rank("HDF5", communicator, [&] {
       try {
-        note_growth(path, mode == Mode::create);
+        note_growth(mode == Mode::create);
       } catch (const std::runtime_error& problem) {
         if (dynamic_cast<const UserError*>(&problem) != nullptr) throw;
         throw_user_error({"HDF5", "file", path, "be writable, and HDF5 where it is continued",
                           "check its folder, or take another name"});
       }
     });
-    handle_->noted = true;
   }
   std::error_code ignored;
   if (rank == 0) there = std::filesystem::exists(path, ignored) ? 1 : 0;
   MPI_Bcast(&there, 1, MPI_INT, 0, communicator);
+  MPI_Bcast(&handle_->as_left, 1, MPI_CXX_BOOL, 0, communicator);
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up access to " + path);
   ensure(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "use MPI for " + path);
   if (mode == Mode::read)
@@ -188,6 +206,10 @@ Hdf5File::~Hdf5File() {
   if (handle_->spoilt || H5Fclose(handle_->file) < 0) some_left_open = true;
 }
 
+bool Hdf5File::as_left() const {
+  return handle_->as_left;
+}
+
 bool Hdf5File::exists(const std::string& object) const {
   // Every group on the way must exist before the last name may be asked for.
   for (std::size_t slash = object.find('/', 1); slash != std::string::npos;
@@ -203,9 +225,17 @@ void Hdf5File::create_group(const std::string& group) {
   });
 }
 
-void Hdf5File::remove(const std::string& object) {
+void Hdf5File::set_aside(const std::string& object) {
   together([&] {
-    ensure(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), "remove " + object + " from " + path_);
+    const std::string aside = "/replaced";
+    if (H5Lexists(handle_->file, aside.c_str(), H5P_DEFAULT) <= 0)
+      Id(H5Gcreate(handle_->file, aside.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+         "create group " + aside + " in " + path_);
+    std::string place = aside + object;
+    for (int n = 2; H5Lexists(handle_->file, place.c_str(), H5P_DEFAULT) > 0; ++n)
+      place = fmt::format("{}{}_{}", aside, object, n);
+    ensure(H5Lmove(handle_->file, object.c_str(), handle_->file, place.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+           "set aside " + object + " in " + path_);
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "suffuse/common/hdf5_file.h"
 
@@ -27,6 +28,9 @@ class Id {
   herr_t (*close_)(hid_t);
 };
 
+/// Adds where a dataset's values lie in its file.
+void add_bytes_of(hid_t dataset, std::vector<ArrayBytes>& all);
+
 inline void ensure(herr_t status, const std::string& what) {
   if (status < 0) throw std::runtime_error("HDF5: cannot " + what);
 }
@@ -35,8 +39,10 @@ struct Hdf5File::Handle {
   hid_t file = -1;
   MPI_Comm communicator = MPI_COMM_NULL;
   bool reads = false;
-  bool noted = false;
-  bool spoilt = false;  ///< a write has failed on some rank
+  Hdf5Growth* growth = nullptr;        ///< until the file has closed
+  bool as_left = false;                ///< the file that grows is the one that `growth` has left
+  std::vector<ArrayBytes> new_arrays;  ///< of a file that grows
+  bool spoilt = false;                 ///< a write has failed on some rank
 };
 
 }  // namespace suffuse

@@ -1,11 +1,15 @@
 #include "hdf5_undo.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
+#include <utility>
 
 #include "suffuse/common/error.h"
 
@@ -21,13 +25,16 @@ std::string undo_of(const std::string& path) {
   return path + ".undo";
 }
 
-/// What lies between the arrays' values in a file of this length.
+/// What lies between the arrays' values in a file of this length, with the values of arrays that are too
+/// small to be worth a part of their own.
 std::vector<ArrayBytes> between(std::vector<ArrayBytes> data, std::uint64_t length) {
   std::sort(data.begin(), data.end(),
             [](const ArrayBytes& a, const ArrayBytes& b) { return a.from < b.from; });
   std::vector<ArrayBytes> rest;
   std::uint64_t at = 0;
+  constexpr std::uint64_t small = 512;
   for (const ArrayBytes& part : data) {
+    if (part.length < small) continue;
     if (part.from > at) rest.push_back({at, part.from - at});
     at = std::max(at, part.from + part.length);
   }
@@ -56,26 +63,58 @@ void copy_bytes(std::istream& from, std::ostream& to, std::uint64_t count) {
   }
 }
 
+/// Straight from the file: a stream would read a whole block for each of many short parts.
+class ReadFile {
+ public:
+  explicit ReadFile(const std::string& path) : file_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~ReadFile() {
+    if (file_ >= 0) close(file_);
+  }
+  ReadFile(const ReadFile&) = delete;
+  ReadFile& operator=(const ReadFile&) = delete;
+
+  /// Did the file have all of them?
+  bool copy(ArrayBytes bytes, std::ostream& to) const {
+    std::array<char, 1 << 16> block;
+    while (bytes.length > 0) {
+      const auto part = static_cast<std::size_t>(std::min<std::uint64_t>(bytes.length, block.size()));
+      const ssize_t got = pread(file_, block.data(), part, static_cast<off_t>(bytes.from));
+      if (got <= 0) return false;
+      to.write(block.data(), got);
+      bytes.from += static_cast<std::uint64_t>(got);
+      bytes.length -= static_cast<std::uint64_t>(got);
+    }
+    return true;
+  }
+
+ private:
+  int file_;
+};
+
 }  // namespace
 
 void write_undo(const std::string& path, std::uint64_t length, std::vector<ArrayBytes> data) {
   const std::string part = undo_of(path) + ".part";
   const std::vector<ArrayBytes> rest = between(std::move(data), length);
-  std::ofstream note(part, std::ios::binary | std::ios::trunc);
-  std::ifstream file(path, std::ios::binary);
+  std::vector<char> buffer(1 << 20);
+  std::ofstream note;
+  note.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  note.open(part, std::ios::binary | std::ios::trunc);
+  const ReadFile file(path);
+  bool whole = true;
   note << kMark;
   put(note, length);
   put(note, static_cast<std::uint64_t>(rest.size()));
   for (const ArrayBytes& bytes : rest) {
     put(note, bytes.from);
     put(note, bytes.length);
-    file.seekg(static_cast<std::streamoff>(bytes.from));
-    copy_bytes(file, note, bytes.length);
+    whole = whole && file.copy(bytes, note);
   }
   note.close();
-  if (!note || (length > 0 && !file)) {
+  if (!note || !whole) {
     std::error_code ignored;
     fs::remove(part, ignored);
+    if (!whole) throw_user_error({"HDF5", "file", path, "be readable to its end", "check its disk"});
     throw_user_error({"HDF5", "file", path, "have room for a note beside it",
                       "make room on the disk; what was written before is whole"});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "run_price.h"
 #include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
+#include "suffuse/common/error.h"
 #include "suffuse/common/variable_file.h"
 
 namespace suffuse::coupling {
@@ -72,24 +74,47 @@ std::vector<AccuracyChoice> choices_beside(const AccuracyChoice& chosen, const A
   return choices;
 }
 
-/// By trials of the averaged flow and of the coarsest lattice; those of finer ones cost as many times as much
+RunPrice price_of(LAMMPS_NS::LAMMPS* lmp, const AccuracyChoice& choice, const AccuracyWish& wish,
+                  const AccuracyScene& scene, LbmRequest settings, LiggghtsPort& port) {
+  settings.method_given = false;
+  take(choice, wish, scene, settings);
+  return price_of_run(lmp, settings, port);
+}
+
+/// Of the averaged flow, by a trial. None where it refuses the scene (grains larger than its cells may leave
+/// no room for water): the resolved flow is looked at then, and `scene` knows why.
+std::optional<PricedChoice> priced_averaged(LAMMPS_NS::LAMMPS* lmp, const AccuracyWish& wish,
+                                            AccuracyScene& scene, const LbmRequest& settings,
+                                            LiggghtsPort& port) {
+  const auto choice = averaged_choice(wish, scene);
+  if (!choice) return std::nullopt;
+  try {
+    const RunPrice price = price_of(lmp, *choice, wish, scene, settings, port);
+    return PricedChoice{*choice, price.water, price.grains};
+  } catch (const UserError& refusal) {
+    if (!wish.resolved) throw;
+    scene.not_averaged = fmt::format("cells of {:.3g} m were refused ({})", choice->spacing, refusal.what());
+    return std::nullopt;
+  }
+}
+
+/// By the trial of the averaged flow and one of the coarsest lattice; finer ones cost as many times as much
 /// as `lbm plan` says of other resolutions.
 std::vector<PricedChoice> priced(LAMMPS_NS::LAMMPS* lmp, const std::vector<AccuracyChoice>& choices,
-                                 const AccuracyWish& wish, const AccuracyScene& scene,
-                                 const LbmRequest& settings, LiggghtsPort& port) {
+                                 const std::optional<PricedChoice>& averaged, const AccuracyWish& wish,
+                                 const AccuracyScene& scene, const LbmRequest& settings, LiggghtsPort& port) {
   std::vector<PricedChoice> priced;
   double water_at_cost = 0, grains = 0;
   for (const AccuracyChoice& choice : choices) {
-    if (choice.averaged || water_at_cost == 0) {
-      LbmRequest trial = settings;
-      trial.method_given = false;
-      take(choice, wish, scene, trial);
-      const RunPrice price = price_of_run(lmp, trial, port);
-      priced.push_back({choice, price.water, price.grains});
-      if (!choice.averaged) water_at_cost = price.water / choice.cost, grains = price.grains;
-    } else {
-      priced.push_back({choice, water_at_cost * choice.cost, grains});
+    if (choice.averaged) {
+      priced.push_back(averaged.value());
+      continue;
     }
+    if (water_at_cost == 0) {
+      const RunPrice price = price_of(lmp, choice, wish, scene, settings, port);
+      water_at_cost = price.water / choice.cost, grains = price.grains;
+    }
+    priced.push_back({choice, water_at_cost * choice.cost, grains});
   }
   return priced;
 }
@@ -224,18 +249,19 @@ std::string prices_text(std::vector<PricedChoice> choices, const AccuracyChoice&
 
 void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, LiggghtsPort& port,
                   LbmRequest& settings) {
-  const auto [scene, velocity_from] =
-      driven_scene(lmp, port, settings, request.largest_velocity, request.region);
+  auto [scene, velocity_from] = driven_scene(lmp, port, settings, request.largest_velocity, request.region);
   AccuracyWish wish{request.accuracy.value(), request.of};
   if (settings.method_given) {
     wish.averaged = settings.averaged.has_value();
     wish.resolved = !wish.averaged;
     if (wish.averaged) wish.drag = settings.averaged->drag;
   }
-  const AccuracyChoice first = choose_for_accuracy(wish, scene);
+  AccuracyChoice first = choose_for_accuracy(wish, scene);
   settings.region = request.region;
+  const auto averaged = priced_averaged(lmp, wish, scene, settings, port);
+  if (first.averaged && !averaged) first = choose_for_accuracy(wish, scene);
   const std::vector<PricedChoice> choices =
-      priced(lmp, choices_beside(first, wish, scene), wish, scene, settings, port);
+      priced(lmp, choices_beside(first, wish, scene), averaged, wish, scene, settings, port);
   const AccuracyChoice choice = cheapest(choices, wish, first);
   take(choice, wish, scene, settings);
   std::string text = fmt::format("lbm accuracy: {} of the {} asked for, about {} to be expected\n",

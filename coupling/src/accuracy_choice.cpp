@@ -114,7 +114,7 @@ double least_stiffness_number(double share, double solid_fraction) {
 }
 
 double counted_diameter(double fine, double sauter) {
-  constexpr double of_fines = 0.5, of_mean = 0.75;
+  constexpr double of_fines = 0.6, of_mean = 0.75;
   const double mean_counts = std::clamp((fine / sauter - of_fines) / (of_mean - of_fines), 0., 1.);
   return fine + mean_counts * std::max(0., sauter - fine);
 }
@@ -198,12 +198,22 @@ double finest_that_fits(const AccuracyScene& scene) {
   return kMostCells;
 }
 
+double error_of_nine_in_ten(const AccuracyChoice& choice) {
+  return kScatterOfPackings * choice.errors.together();
+}
+
+/// Rounded up to two digits: what is named as enough is enough.
+std::string enough_percent(double share) {
+  const double percent = 100 * share, digit = std::pow(10, std::floor(std::log10(percent)) - 1);
+  return fmt::format("{:.2g} %", digit * std::ceil(percent / digit * (1 - 1e-12)));
+}
+
 [[noreturn]] void refuse_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
   const std::string why = why_not_averaged(wish, scene);
   const auto choice = averaged_choice(wish, scene);
   throw_user_error({kWho, "accuracy", fmt::format("{:g} %", 100 * wish.share),
-                    choice ? fmt::format("be above {:.2g} % with `lbm method averaged`",
-                                         100 * kScatterOfPackings * choice->errors.together())
+                    choice ? fmt::format("be at least {} with `lbm method averaged`",
+                                         enough_percent(error_of_nine_in_ten(*choice)))
                            : "be one that the averaged flow can have: " + why,
                     "drop `lbm method averaged`, or its drag law: the resolved flow is finer"});
 }
@@ -211,7 +221,7 @@ double finest_that_fits(const AccuracyScene& scene) {
 }  // namespace
 
 bool keeps_to(const AccuracyWish& wish, const AccuracyChoice& choice) {
-  return kScatterOfPackings * choice.errors.together() <= wish.share;
+  return error_of_nine_in_ten(choice) <= wish.share;
 }
 
 std::string why_not_averaged(const AccuracyWish& wish, const AccuracyScene& scene) {
@@ -265,8 +275,8 @@ AccuracyChoice choose_for_accuracy(const AccuracyWish& wish, const AccuracyScene
   const AccuracyErrors& errors = finest.errors;
   throw_user_error(
       {kWho, "accuracy", fmt::format("{:g} %", 100 * wish.share),
-       fmt::format("be above {:.2g} %, what {:.2g} cells a diameter give here",
-                   100 * kScatterOfPackings * errors.together(), finest.cells),
+       fmt::format("be at least {}, what {:.2g} cells a diameter give here",
+                   enough_percent(error_of_nine_in_ten(finest)), finest.cells),
        errors.motion > errors.resolution ? "grains move too fast for finer: see `lbm collision`" : ""});
 }
 

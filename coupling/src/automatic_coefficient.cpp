@@ -18,8 +18,9 @@ constexpr MeasuredError kMeasured[] = {{2, 0.127, 0.3},     {2.5, 0.07, 0.19}, {
                                        {8, 0.009, 0.033}};
 
 double cells_of_usual_packing(double cells, double solid_fraction) {
-  constexpr double loosest = kUsualSolidFraction, densest = 0.65;
-  return cells * std::sqrt(kUsualSolidFraction / std::clamp(solid_fraction, loosest, densest));
+  constexpr double densest = 0.8;
+  const double porosity = 1 - std::clamp(solid_fraction, kUsualSolidFraction, densest);
+  return cells * std::sqrt(porosity / (1 - kUsualSolidFraction));
 }
 
 /// Else every window is that of the spheres' radius. Ranks may differ in this and find the same.

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 #include <numeric>
+#include <utility>
 #include <vector>
 
-#include "suffuse/common/collective_text.h"
 #include "suffuse/common/grain_series_names.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/provenance.h"
@@ -75,8 +75,9 @@ class RowWriter {
   Rows rows_;
 };
 
-void write_grains(Hdf5File& file, const std::string& step, const GrainArrays& grains,
-                  const GrainMemory& memory, MPI_Comm communicator) {
+/// How many, of all ranks.
+std::size_t write_grains(Hdf5File& file, const std::string& step, const GrainArrays& grains,
+                         const GrainMemory& memory, MPI_Comm communicator) {
   const Rows rows = rows_of(static_cast<std::size_t>(grains.owned), communicator);
   file.create_group(step + "/" + names::kGrains);
   RowWriter writer(file, step + "/" + names::kGrains, rows);
@@ -90,6 +91,7 @@ void write_grains(Hdf5File& file, const std::string& step, const GrainArrays& gr
   writer.vectors("angular_velocity", "rad/s", grains.angular_velocity, 3);
   writer.vectors(names::kForce, "N", memory.load, 6);
   writer.vectors("torque", "N m", rows.mine > 0 ? memory.load + 3 : nullptr, 6);
+  return rows.all;
 }
 
 /// The same on all ranks; rank 0 writes it.
@@ -108,8 +110,9 @@ void write_box(Hdf5File& file, const std::string& step, const GrainSnapshot& sna
   file.write(step + "/" + names::kPeriodic, {{3}, {0}, {3 * mine}}, periodic);
 }
 
-void write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
-                    MPI_Comm communicator) {
+/// How many, of all ranks.
+std::size_t write_contacts(Hdf5File& file, const std::string& step, const micromechanics::Packing& network,
+                           MPI_Comm communicator) {
   std::vector<std::int64_t> ids;
   std::vector<double> force, normal, branch, ends, friction, limit, spring;
   for (const micromechanics::Contact& contact : network.contacts) {
@@ -140,6 +143,7 @@ void write_contacts(Hdf5File& file, const std::string& step, const micromechanic
   writer.scalars(names::kFriction, "1", friction);
   writer.scalars(names::kFrictionLimit, "N", limit);
   writer.scalars(names::kSpringForce, "N", spring);
+  return rows.all;
 }
 
 /// Bytes of the arrays, of all ranks.
@@ -160,13 +164,23 @@ std::string xdmf_attribute(const std::string& file, const std::string& group, co
       centre);
 }
 
-std::string xdmf_snapshot(const std::string& file, const std::string& group, double time, std::size_t rows) {
+/// What the XDMF files say of a snapshot.
+struct Shown {
+  std::string step;  ///< its group
+  double time;       ///< s
+  std::size_t grains, contacts;
+};
+
+std::string grid_of_grains(const std::string& file, const Shown& shown) {
+  const std::size_t rows = shown.grains;
+  if (rows == 0) return "";
+  const std::string group = shown.step + "/" + names::kGrains;
   std::string text = fmt::format(
       "      <Grid Name=\"grains\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n"
       "        <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\" NodesPerElement=\"1\"/>\n"
       "        <Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"{} 3\" NumberType=\"Float\" "
       "Precision=\"8\" Format=\"HDF\">{}:{}/{}</DataItem></Geometry>\n",
-      time, rows, rows, file, group, names::kPosition);
+      shown.time, rows, rows, file, group, names::kPosition);
   text += xdmf_attribute(file, group, names::kId, rows, false, true);
   for (const char* scalar : {names::kRadius, "diameter"})
     text += xdmf_attribute(file, group, scalar, rows, false, false);
@@ -176,7 +190,10 @@ std::string xdmf_snapshot(const std::string& file, const std::string& group, dou
 }
 
 /// Lines from centre to centre; across a periodic face the second end lies outside of the box.
-std::string xdmf_contacts(const std::string& file, const std::string& group, double time, std::size_t rows) {
+std::string grid_of_contacts(const std::string& file, const Shown& shown) {
+  const std::size_t rows = shown.contacts;
+  if (rows == 0) return "";
+  const std::string group = shown.step + "/" + names::kContacts;
   std::string text = fmt::format(
       "      <Grid Name=\"contacts\" GridType=\"Uniform\">\n        <Time Value=\"{0:.17g}\"/>\n"
       "        <Topology TopologyType=\"Polyline\" NumberOfElements=\"{1}\" NodesPerElement=\"2\"><DataItem "
@@ -184,22 +201,11 @@ std::string xdmf_contacts(const std::string& file, const std::string& group, dou
       "</Topology>\n        <Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"{2} 3\" "
       "NumberType=\"Float\" "
       "Precision=\"8\" Format=\"HDF\">{3}:{4}/ends</DataItem></Geometry>\n",
-      time, rows, 2 * rows, file, group);
+      shown.time, rows, 2 * rows, file, group);
   for (const char* scalar : {"normal_force", names::kFriction})
     text += xdmf_attribute(file, group, scalar, rows, false, false, "Cell");
   text += xdmf_attribute(file, group, names::kForce, rows, true, false, "Cell");
   return text + "      </Grid>\n";
-}
-
-void write_xdmf(const std::string& path, const std::string& name, const std::string& snapshots,
-                MPI_Comm communicator) {
-  write_text(
-      path, "output of " + name,
-      fmt::format("<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n    <Grid Name=\"{}\" "
-                  "GridType=\"Collection\" CollectionType=\"Temporal\">\n{}    </Grid>\n  "
-                  "</Domain>\n</Xdmf>\n",
-                  name, snapshots),
-      communicator);
 }
 
 }  // namespace
@@ -211,42 +217,63 @@ std::string contacts_beside(const std::string& path) {
   return (file.parent_path() / (stem + "_contacts.xdmf")).string();
 }
 
+GrainOutput::GrainOutput(std::string path, bool append)
+    : path_(std::move(path)),
+      append_(append),
+      grains_(std::filesystem::path(path_).replace_extension(".xdmf").string(), "grains"),
+      contacts_(contacts_beside(path_), "contacts") {}
+
 void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
   const std::string name = fmt::format("{}{:012d}", names::kStep, snapshot.step), step = "/" + name;
-  const std::string file_name = std::filesystem::path(path_).filename().string();
+  bool is_next = false;  // after what this object has written
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
-  std::string snapshots, contact_snapshots;
+  Shown shown{step, snapshot.time, 0, 0};
   {
-    Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator,
-                  Hdf5File::Growth::noted);
+    Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator, &growth_);
     append_ = true;
+    is_next = file.as_left() && !last_.empty() && name > last_;
     file.reserve(room_for(snapshot, communicator));
-    for (const std::string& old : file.names_in("/"))
-      if (old.starts_with(names::kStep) && old >= name) file.remove("/" + old);
+    if (!is_next)
+      for (const std::string& old : file.names_in("/"))
+        if (old.starts_with(names::kStep) && old >= name) file.set_aside("/" + old);
     write_provenance(file);
     file.create_group(step);
     file.set_attribute(step, names::kTime, snapshot.time);
-    write_grains(file, step, snapshot.grains, snapshot.memory, communicator);
+    shown.grains = write_grains(file, step, snapshot.grains, snapshot.memory, communicator);
     write_box(file, step, snapshot, rank);
-    if (snapshot.network != nullptr) write_contacts(file, step, *snapshot.network, communicator);
-    for (const std::string& each : file.names_in("/")) {
-      if (!each.starts_with(names::kStep)) continue;
-      const std::string part = "/" + each + "/" + names::kGrains;
-      if (const std::size_t count = file.extents(part + "/" + names::kId).at(0); count > 0)
-        snapshots += xdmf_snapshot(file_name, part, file.number_attribute("/" + each, names::kTime), count);
-      const std::string network = "/" + each + "/" + names::kContacts;
-      if (!file.exists(network + "/lines")) continue;
-      if (const std::size_t count = file.extents(network + "/lines").at(0); count > 0)
-        contact_snapshots +=
-            xdmf_contacts(file_name, network, file.number_attribute("/" + each, names::kTime), count);
-    }
+    if (snapshot.network != nullptr)
+      shown.contacts = write_contacts(file, step, *snapshot.network, communicator);
     file.close();
   }
-  write_xdmf(std::filesystem::path(path_).replace_extension(".xdmf").string(), "grains", snapshots,
-             communicator);
-  if (snapshot.network != nullptr)
-    write_xdmf(contacts_beside(path_), "contacts", contact_snapshots, communicator);
+  last_ = name;
+  const std::string file_name = std::filesystem::path(path_).filename().string();
+  const bool added =
+      is_next && grains_.add(grid_of_grains(file_name, shown), communicator) &&
+      (snapshot.network == nullptr || contacts_.add(grid_of_contacts(file_name, shown), communicator));
+  if (!added) show_all(communicator);
+}
+
+void GrainOutput::show_all(MPI_Comm communicator) {
+  const std::string file_name = std::filesystem::path(path_).filename().string();
+  std::string grains, contacts;
+  bool any_networks = false;
+  {
+    const Hdf5File file(path_, Hdf5File::Mode::read, communicator);
+    for (const std::string& each : file.names_in("/")) {
+      if (!each.starts_with(names::kStep)) continue;
+      Shown shown{"/" + each, file.number_attribute("/" + each, names::kTime), 0, 0};
+      shown.grains = file.extents(shown.step + "/" + names::kGrains + "/" + names::kId).at(0);
+      const std::string lines = shown.step + "/" + names::kContacts + "/lines";
+      const bool has_network = file.exists(lines);
+      if (has_network) shown.contacts = file.extents(lines).at(0);
+      any_networks = any_networks || has_network;
+      grains += grid_of_grains(file_name, shown);
+      contacts += grid_of_contacts(file_name, shown);
+    }
+  }
+  grains_.write(grains, communicator);
+  if (any_networks) contacts_.write(contacts, communicator);
 }
 
 }  // namespace suffuse::coupling

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "suffuse/common/collective_text.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/provenance.h"
 #include "suffuse/lbm/cell_array.h"
@@ -13,6 +12,9 @@
 namespace suffuse::lbm {
 
 namespace {
+
+/// Begins the name of a snapshot's group; its step follows, with twelve digits.
+constexpr const char* kStep = "step_";
 
 struct Snapshot {
   std::string group;
@@ -70,27 +72,21 @@ std::string xdmf_array(const std::string& file, const Snapshot& snapshot, const 
       snapshot.group);
 }
 
-std::string xdmf(const std::string& file, const std::vector<Snapshot>& snapshots, const Index3& cells,
-                 const Vec3& origin, double spacing) {
-  std::string text =
-      "<?xml version=\"1.0\" ?>\n<Xdmf Version=\"2.0\">\n  <Domain>\n"
-      "    <Grid Name=\"fluid\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  for (const Snapshot& snapshot : snapshots) {
-    text += fmt::format(
-        "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n"
-        "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{} {} {}\"/>\n"
-        "        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
-        "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
-        "{:.17g}</DataItem>\n"
-        "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
-        "{:.17g}</DataItem>\n"
-        "        </Geometry>\n",
-        snapshot.group, snapshot.time_si, cells[2] + 1, cells[1] + 1, cells[0] + 1, origin[2], origin[1],
-        origin[0], spacing, spacing, spacing);
-    for (const std::string& field : snapshot.fields) text += xdmf_array(file, snapshot, field, cells);
-    text += "      </Grid>\n";
-  }
-  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+std::string xdmf_grid(const std::string& file, const Snapshot& snapshot, const Index3& cells,
+                      const Vec3& origin, double spacing) {
+  std::string text = fmt::format(
+      "      <Grid Name=\"{}\" GridType=\"Uniform\">\n        <Time Value=\"{:.17g}\"/>\n"
+      "        <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{} {} {}\"/>\n"
+      "        <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+      "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
+      "{:.17g}</DataItem>\n"
+      "          <DataItem Dimensions=\"3\" Format=\"XML\" Precision=\"8\">{:.17g} {:.17g} "
+      "{:.17g}</DataItem>\n"
+      "        </Geometry>\n",
+      snapshot.group, snapshot.time_si, cells[2] + 1, cells[1] + 1, cells[0] + 1, origin[2], origin[1],
+      origin[0], spacing, spacing, spacing);
+  for (const std::string& field : snapshot.fields) text += xdmf_array(file, snapshot, field, cells);
+  return text + "      </Grid>\n";
 }
 
 }  // namespace
@@ -100,28 +96,32 @@ std::string xdmf_beside(const std::string& path) {
 }
 
 FieldOutput::FieldOutput(const FieldOutputSettings& settings, const Units& units)
-    : settings_(settings), units_(units) {}
+    : settings_(settings), units_(units), series_(xdmf_beside(settings.path), "fluid") {}
 
 void FieldOutput::write(const Fluid& fluid) {
   const Decomposition& d = fluid.decomposition();
-  const std::filesystem::path path(settings_.path);
-  const std::string group = fmt::format("step_{:012d}", fluid.steps());
-  std::vector<Snapshot> snapshots;
+  const std::string group = fmt::format("{}{:012d}", kStep, fluid.steps());
+  const double time = units_.time_to_si(static_cast<double>(fluid.steps()));
+  Snapshot snapshot{group, time, {}};
+  for (const Field field : settings_.fields) snapshot.fields.emplace_back(facts_of(field).word);
+  std::sort(snapshot.fields.begin(), snapshot.fields.end());  // as names_in has them
+  bool is_next = false;                                       // after what this object has written
   {
-    const auto mode = started_ || settings_.append ? Hdf5File::Mode::append : Hdf5File::Mode::create;
-    Hdf5File file(settings_.path, mode, d.communicator(), Hdf5File::Growth::noted);
-    started_ = true;
+    const auto mode = last_.empty() && !settings_.append ? Hdf5File::Mode::create : Hdf5File::Mode::append;
+    Hdf5File file(settings_.path, mode, d.communicator(), &growth_);
+    is_next = file.as_left() && !last_.empty() && group > last_;
     std::size_t values = 0;
     for (const Field field : settings_.fields) values += facts_of(field).components;
     file.reserve(values * sizeof(float) * CellBox{{0, 0, 0}, d.cells()}.volume());
-    for (const std::string& name : file.names_in("/"))
-      if (name.starts_with("step_") && name >= group) file.remove("/" + name);
+    if (!is_next)
+      for (const std::string& name : file.names_in("/"))
+        if (name.starts_with(kStep) && name >= group) file.set_aside("/" + name);
     write_provenance(file);
     for (int axis = 0; axis < 3; ++axis)
       file.set_attribute("/", fmt::format("origin_{}_m", "xyz"[axis]), settings_.origin[axis]);
     file.set_attribute("/", "spacing_m", units_.spacing());
     file.create_group("/" + group);
-    file.set_attribute("/" + group, "time_s", units_.time_to_si(static_cast<double>(fluid.steps())));
+    file.set_attribute("/" + group, "time_s", time);
     for (const Field field : settings_.fields) {
       const ArrayPart part = part_of(d, facts_of(field).components > 1);
       const std::string array = "/" + group + "/" + facts_of(field).word;
@@ -129,14 +129,20 @@ void FieldOutput::write(const Fluid& fluid) {
       file.set_attribute(array, "units", facts_of(field).unit);
       file.write(array, part, values_of(field, fluid, units_, settings_));
     }
-    for (const std::string& name : file.names_in("/"))
-      if (name.starts_with("step_"))
-        snapshots.push_back({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
     file.close();
   }
-  write_text(xdmf_beside(settings_.path), "output of fields",
-             xdmf(path.filename().string(), snapshots, d.cells(), settings_.origin, units_.spacing()),
-             d.communicator());
+  last_ = group;
+  const std::string file_name = std::filesystem::path(settings_.path).filename().string();
+  const auto grid = [&](const Snapshot& of) {
+    return xdmf_grid(file_name, of, d.cells(), settings_.origin, units_.spacing());
+  };
+  if (is_next && series_.add(grid(snapshot), d.communicator())) return;
+  std::string grids;
+  const Hdf5File file(settings_.path, Hdf5File::Mode::read, d.communicator());
+  for (const std::string& name : file.names_in("/"))
+    if (name.starts_with(kStep))
+      grids += grid({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
+  series_.write(grids, d.communicator());
 }
 
 }  // namespace suffuse::lbm

@@ -40,7 +40,7 @@ lbm monitor flow every {10 * water.step:.12g} file flow.csv superficial_velocity
 lbm output fields every {minute / 4:.12g} file fields.h5 velocity pressure solid_fraction grains contacts
 lbm restart write water.h5 every {minute:.12g}
 variable p equal {1.1 * critical:.8g}*(0.5-0.5*cos(2*PI*f_hydrodynamic_force/{PERIOD}))
-lbm run {1e6 * water.step:.12g}
+lbm run {1e8 * water.step:.12g}
 """
     return scene(Folder(folder), water, cubic((5, 5, GRAINS // 25), diameter, 1.15), after, periodic="ppf", extra="variable p equal 0")
 

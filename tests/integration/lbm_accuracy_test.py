@@ -2,7 +2,8 @@
 """lbm_accuracy_test.py --suffuse PROGRAM --mpirun SCRIPT --ranks N
 
 `lbm accuracy`: spheres pulled through a periodic box keep to what was asked for against Hasimoto's speed; the `lbm lattice` line that it
-prints gives the same run to the last digit; a bed's velocity comes from what drives it; what cannot be had is refused.
+prints gives the same run to the last digit; a bed's velocity comes from what drives it; what cannot be had is
+refused, and grains that the averaged flow has no room for take the resolved one.
 """
 import math
 import pathlib
@@ -71,6 +72,28 @@ def check_drive(program):
     expect(10 < speeds[1] / speeds[0] <= 100.5 and speeds[2] > 5 * speeds[0], f"velocities {speeds}")
 
 
+def check_coarse_grain(program):
+    """A coarse grain among fines, larger than cells of three mean diameters: the averaged flow has no water left there."""
+    size, coarse, fine = 2.4e-3, 1.2e-3, 2e-4
+    script = HEADER.format(boundary="p p p") + f"""region box block 0 {size} 0 {size} 0 {size} units box
+create_box 1 box
+create_atoms 1 single {size / 2} {size / 2} {size / 2} units box
+region around sphere {size / 2} {size / 2} {size / 2} {(coarse + fine) / 2} side out units box
+lattice sc {fine} origin 0.5 0.5 0.5
+create_atoms 1 region around
+set type 1 diameter {fine} density 2650
+set atom 1 diameter {coarse} density 2650
+{material(1e-4, 5e6, 0.3, 0.3)}timestep 1e-6
+{FLUID}lbm accuracy 30% max_velocity 1e-4
+"""
+    with scratch() as folder:
+        screen = program.must_run(script, folder)
+    expect("resolved: not averaged, for cells of" in screen and "of a cell to the water" in screen, screen[-1500:])
+    with scratch() as folder:
+        amiss = mistakes_not_named(program, [(script.replace("lbm accuracy", "lbm method averaged\nlbm accuracy"), ["of a cell to the water"])], folder)
+    expect(not amiss, "\n".join(amiss))
+
+
 def check_refusals(program):
     bed = wet_box() + FLUID
     amiss = []
@@ -89,6 +112,7 @@ def check_refusals(program):
 def main():
     program = program_from_command_line(__doc__)
     check_refusals(program)
+    check_coarse_grain(program)
     check_drive(program)
     check_target(program)
     print(f"{program.ranks} ranks: the accuracy that was asked for is kept")

@@ -1,12 +1,17 @@
 // Checkpoints and field files, written on some ranks and read on others.
+#include <sys/resource.h>
+
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "lbm_test_tools.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/xdmf_series.h"
 #include "suffuse/lbm/checkpoint.h"
 #include "suffuse/lbm/field_output.h"
 
@@ -28,6 +33,11 @@ std::filesystem::path folder() {
   if (rank == 0) std::filesystem::create_directories(path);
   MPI_Barrier(MPI_COMM_WORLD);
   return path;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 FluidSettings settings_for(Precision precision) {
@@ -139,15 +149,30 @@ TEST_CASE("fields are written in SI, and a series that is continued keeps what c
       fluid.run(2);
     }
   }
+  // Grids added one by one, and all that are in the file: the last step is replaced, and the list made anew.
+  const std::filesystem::path list = folder() / "flow.xdmf";
+  const std::string one_by_one = text_of(list);
   output.append = true;
+  MPI_Barrier(MPI_COMM_WORLD);
+  {
+    Fluid again = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
+    again.run(4);
+    FieldOutput(output, units).write(again);
+  }
+  CHECK(one_by_one.find("flow.h5:/step_000000000004/velocity") != std::string::npos);
+  CHECK(text_of(list) == one_by_one);
+  MPI_Barrier(MPI_COMM_WORLD);
+
   Fluid second = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
   second.run(3);
   FieldOutput continued(output, units);
   continued.write(second);  // step 3: keeps 0 and 2, drops 4
 
   const Hdf5File file(path.string(), Hdf5File::Mode::read, MPI_COMM_WORLD);
-  const std::vector<std::string> expected{"step_000000000000", "step_000000000002", "step_000000000003"};
+  const std::vector<std::string> expected{"replaced", "step_000000000000", "step_000000000002",
+                                          "step_000000000003"};
   CHECK(file.names_in("/") == expected);
+  CHECK(file.names_in("/replaced") == std::vector<std::string>{"step_000000000004", "step_000000000004_2"});
   CHECK(file.number_attribute("/step_000000000003", "time_s") == Approx(0.03));
   const CellBox& box = second.decomposition().local_box();
   const auto n = [](int v) { return static_cast<std::size_t>(v); };
@@ -173,35 +198,126 @@ TEST_CASE("fields are written in SI, and a series that is continued keeps what c
   });
 }
 
+TEST_CASE("a series whose file has been taken away, or put back, goes on with what is there") {
+  const std::filesystem::path path = folder() / "moved.h5", list = folder() / "moved.xdmf",
+                              kept = folder() / "moved_kept.h5";
+  std::filesystem::remove(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  UnitsRequest request;
+  request.spacing = 1e-3;
+  request.time_step = 0.01;
+  FieldOutputSettings output;
+  output.path = path.string();
+  Fluid fluid = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
+  FieldOutput writer(output, Units(request));
+  const auto write_next = [&] {
+    writer.write(fluid);
+    fluid.run(1);
+    MPI_Barrier(MPI_COMM_WORLD);
+  };
+  const auto states = [&] {  // in the list; the file has the same
+    const std::string text = text_of(list);
+    std::string listed, there;
+    for (int n = 0; n < 9; ++n)
+      if (text.find("step_00000000000" + std::to_string(n)) != std::string::npos) listed += std::to_string(n);
+    {
+      const Hdf5File file(path.string(), Hdf5File::Mode::read, MPI_COMM_WORLD);
+      for (const std::string& name : file.names_in("/")) there += name.back();
+    }
+    CHECK(listed == there);
+    MPI_Barrier(MPI_COMM_WORLD);
+    return there;
+  };
+  write_next();
+  if (rank == 0) std::filesystem::copy_file(path, kept, std::filesystem::copy_options::overwrite_existing);
+  write_next();
+  CHECK(states() == "01");
+  if (rank == 0) std::filesystem::rename(kept, path);  // an older copy of it
+  write_next();
+  CHECK(states() == "02");
+  if (rank == 0) std::filesystem::remove(path);
+  write_next();
+  CHECK(states() == "3");
+}
+
+TEST_CASE("a list of grids grows at its end, and stays as it was where it cannot") {
+  const std::filesystem::path path = folder() / "list.xdmf";
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const std::string first = "      <Grid Name=\"1\"/>\n", second = "      <Grid Name=\"2\"/>\n";
+  std::filesystem::remove(path);
+  MPI_Barrier(MPI_COMM_WORLD);
+  XdmfSeries series(path.string(), "things");
+  CHECK_FALSE(series.add(first, MPI_COMM_WORLD));  // nothing there yet
+  CHECK_FALSE(std::filesystem::exists(path));
+  series.write(first, MPI_COMM_WORLD);
+  CHECK(series.add(second, MPI_COMM_WORLD));
+  const std::string both = text_of(path);
+  XdmfSeries((folder() / "other.xdmf").string(), "things").write(first + second, MPI_COMM_WORLD);
+  CHECK(both == text_of(folder() / "other.xdmf"));
+
+  // No room for more than a few bytes.
+  rlimit usual{};
+  getrlimit(RLIMIT_FSIZE, &usual);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit little{both.size() + 3, usual.rlim_max};
+  if (rank == 0) setrlimit(RLIMIT_FSIZE, &little);
+  CHECK_THROWS_WITH(series.add(first, MPI_COMM_WORLD), Catch::Contains("list.xdmf"));
+  if (rank == 0) setrlimit(RLIMIT_FSIZE, &usual);
+  std::signal(SIGXFSZ, before);
+  CHECK(text_of(path) == both);
+  MPI_Barrier(MPI_COMM_WORLD);
+  CHECK_FALSE(series.add(second, MPI_COMM_WORLD));  // one is missing: the list is to be made anew
+  series.write(first, MPI_COMM_WORLD);
+  CHECK(series.add(second, MPI_COMM_WORLD));
+
+  if (rank == 0) std::ofstream(path) << "someone else's";
+  MPI_Barrier(MPI_COMM_WORLD);
+  CHECK_FALSE(series.add(second, MPI_COMM_WORLD));
+  CHECK(text_of(path) == "someone else's");
+}
+
 TEST_CASE(
     "a series whose writer was killed holds the states of before, whatever was written over its tables") {
   const std::string path = (folder() / "killed.h5").string();
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   const ArrayPart part{{6}, {0}, {rank == 0 ? std::size_t{6} : 0}};
+  const ArrayPart many{{1000}, {0}, {rank == 0 ? std::size_t{1000} : 0}};
   const std::vector<double> values =
       rank == 0 ? std::vector<double>{1, 2, 3, 4, 5, 6} : std::vector<double>{};
   const auto add_state = [&](Hdf5File& file, const std::string& name) {
     file.create_group("/" + name);
     file.create_array<double>("/" + name + "/a", {6});
     file.write("/" + name + "/a", part, values);
+    file.create_array<double>("/" + name + "/large", {1000});  // whose values are not noted
+    file.write("/" + name + "/large", many, std::vector<double>(many.count[0], 7.));
   };
+  Hdf5Growth growth;
   const auto states = [&] {
-    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, &growth);
     const std::vector<std::string> names = file.names_in("/");
-    for (const std::string& name : names) CHECK(file.read<double>("/" + name + "/a", part) == values);
+    for (const std::string& name : names) {
+      CHECK(file.read<double>("/" + name + "/a", part) == values);
+      CHECK(file.read<double>("/" + name + "/large", many) == std::vector<double>(many.count[0], 7.));
+    }
     file.close();
     return names;
   };
   {
-    Hdf5File file(path, Hdf5File::Mode::create, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    Hdf5File file(path, Hdf5File::Mode::create, MPI_COMM_WORLD, &growth);
     add_state(file, "step_1");
     file.close();
   }
   {
-    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, Hdf5File::Growth::noted);
+    Hdf5File file(path, Hdf5File::Mode::append, MPI_COMM_WORLD, &growth);
     add_state(file, "step_2");
-    if (rank == 0) std::filesystem::copy_file(path + ".undo", path + ".kept");
+    if (rank == 0) {
+      std::filesystem::copy_file(path + ".undo", path + ".kept");
+      CHECK(std::filesystem::file_size(path + ".undo") < 8000);
+    }
     MPI_Barrier(MPI_COMM_WORLD);
     file.close();
   }

@@ -17,6 +17,22 @@ struct ArrayPart {
   std::vector<std::size_t> count;   ///< its extents; a zero means that this rank has nothing
 };
 
+/// A part of a file that holds an array's values.
+struct ArrayBytes {
+  std::uint64_t from = 0, length = 0;
+};
+
+/// A file that grows state by state, opened for each, and stays one that can be opened whenever its writer is
+/// killed: the next one that is to write it finds PATH.undo, and takes back what was half written
+/// (hdf5_undo.h). Of one file, for as long as its writer lives: what is known of it from one state to the
+/// next need not be looked up in it again.
+class Hdf5Growth {
+  friend class Hdf5File;
+  bool known_ = false;
+  std::uint64_t length_ = 0;        ///< of the file that `arrays_` are those of
+  std::vector<ArrayBytes> arrays_;  ///< on rank 0
+};
+
 /// An HDF5 file that all ranks of a communicator write and read together. Every call is collective. No HDF5
 /// type is visible here. What a file or its disk does not take or hold is a UserError, the same on every
 /// rank, so that no rank waits for another.
@@ -24,12 +40,8 @@ class Hdf5File {
  public:
   enum class Mode { create, append, read };  ///< `append` creates the file if there is none
 
-  /// With `noted` a file that grows state by state stays one that can be opened whenever its writer is
-  /// killed: the next one that is to write it finds PATH.undo, and takes back what was half written
-  /// (hdf5_undo.h).
-  enum class Growth { plain, noted };
-
-  Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Growth growth = Growth::plain);
+  /// With `growth`, which outlives it, the file is one that grows state by state.
+  Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Hdf5Growth* growth = nullptr);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -37,6 +49,9 @@ class Hdf5File {
   /// Sees to it that so many bytes more can be written: blocks of the disk are taken for them before. A
   /// UserError where there are none, before anything has been changed. Collective.
   void reserve(std::size_t bytes);
+
+  /// Of a file that grows: is it the one that its Hdf5Growth left, with what was written then and no more?
+  bool as_left() const;
 
   /// The last step of a file that was written: a UserError where the disk did not take all. A destructor
   /// closes too, and cannot say it. Collective.
@@ -48,7 +63,9 @@ class Hdf5File {
 
   bool exists(const std::string& object) const;
   void create_group(const std::string& group);
-  void remove(const std::string& object);
+  /// Out of the way of a new one of this name, into the group /replaced. Nothing is removed: HDF5 would leave
+  /// room behind of which nobody knows any more what is in it.
+  void set_aside(const std::string& object);
   /// Names of the objects right under a group, sorted.
   std::vector<std::string> names_in(const std::string& group) const;
 
@@ -70,6 +87,7 @@ class Hdf5File {
 
  private:
   void together(const std::function<void()>& work) const;
+  void note_growth(bool anew);
 
   struct Handle;
   std::unique_ptr<Handle> handle_;

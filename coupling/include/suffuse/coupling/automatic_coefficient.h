@@ -37,8 +37,9 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 /// the largest (docs/results/data/resolution_of_packings.csv, coefficient_fit_force.csv; periodic boxes,
 /// solid fractions 0.4 to 0.62; arrays of 0.34 err up to twice as much below five cells). Measured at 2 to 8
 /// cells, powers of the resolution between; beyond 8 as at 8, where the references are hardly better; a guess
-/// below 2. Pores of dense packings are narrower: a solid fraction phi above 0.55 counts as sqrt(0.55/phi)
-/// times the cells; beyond 0.65 as there.
+/// below 2. Pores of dense packings are narrower: above a solid fraction of 0.55 the cells count less, by the
+/// square root of the porosity over 0.45, up to 0.8 (samples of the thesis's gradings, 0.72 to 0.785:
+/// tests/data/gap_graded_packings.csv).
 inline constexpr double kUsualSolidFraction = 0.55;
 double expected_permeability_error(double cells_per_sauter_diameter,
                                    double solid_fraction = kUsualSolidFraction);

@@ -5,6 +5,8 @@
 #include <array>
 #include <string>
 
+#include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/xdmf_series.h"
 #include "suffuse/coupling/particle_port.h"
 #include "suffuse/micromechanics/contact_network.h"
 
@@ -43,15 +45,21 @@ struct GrainSnapshot {
 class GrainOutput {
  public:
   /// `path` of the HDF5 file; the XDMF file is named like it. With `append` snapshots of an earlier run stay.
-  GrainOutput(std::string path, bool append) : path_(std::move(path)), append_(append) {}
+  GrainOutput(std::string path, bool append);
 
-  /// A snapshot of the same or a later step already in the file is dropped. All ranks have a network or none
-  /// has. Collective.
+  /// A snapshot of the same or a later step already in the file goes to the group /replaced. All ranks have a
+  /// network or none has. Collective.
   void write(const GrainSnapshot& snapshot, MPI_Comm communicator);
 
  private:
+  /// Both XDMF files, of all snapshots that are in the HDF5 file. Collective.
+  void show_all(MPI_Comm communicator);
+
   std::string path_;
   bool append_;
+  Hdf5Growth growth_;
+  XdmfSeries grains_, contacts_;
+  std::string last_;  ///< group; empty before
 };
 
 /// The name of the XDMF file of the contacts in an HDF5 file of grains.

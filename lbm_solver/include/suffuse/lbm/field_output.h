@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/xdmf_series.h"
 #include "suffuse/lbm/fluid.h"
 #include "suffuse/lbm/units.h"
 
@@ -52,14 +54,16 @@ class FieldOutput {
  public:
   FieldOutput(const FieldOutputSettings& settings, const Units& units);
 
-  /// Collective. A snapshot of the same or a later step already in the file (an earlier run's) is replaced or
-  /// dropped.
+  /// Collective. A snapshot of the same or a later step already in the file (an earlier run's) goes to the
+  /// group /replaced.
   void write(const Fluid& fluid);
 
  private:
   FieldOutputSettings settings_;
   Units units_;
-  bool started_ = false;
+  Hdf5Growth growth_;
+  XdmfSeries series_;
+  std::string last_;  ///< group; empty before
 };
 
 }  // namespace suffuse::lbm
