@@ -47,6 +47,12 @@ bool any_failed(int failed, const std::string& path, MPI_Comm communicator) {
   return any != 0;
 }
 
+/// HDF5 shortens a file by what was removed at its end, and uses that room for anything again.
+void keep_within(std::uint64_t length, std::vector<ArrayBytes>& arrays) {
+  std::erase_if(arrays, [&](const ArrayBytes& bytes) { return bytes.from >= length; });
+  for (ArrayBytes& bytes : arrays) bytes.length = std::min(bytes.length, length - bytes.from);
+}
+
 /// Takes blocks of the disk behind the file's end; 0, or why there are none. Where a file system cannot do
 /// that the room that it says to have counts.
 int no_room(const std::string& path, std::size_t bytes) {
@@ -104,6 +110,12 @@ void Hdf5File::close() {
   growth->length_ = std::filesystem::file_size(path_, unknown);
   growth->known_ = !unknown;
   growth->arrays_.insert(growth->arrays_.end(), handle_->new_arrays.begin(), handle_->new_arrays.end());
+  growth->unused_.insert(growth->unused_.end(), handle_->removed_arrays.begin(),
+                         handle_->removed_arrays.end());
+  growth->unused_is_told_ = handle_->removed_arrays.empty();
+  if (growth->unused_is_told_) return;
+  keep_within(growth->length_, growth->arrays_);
+  keep_within(growth->length_, growth->unused_);
 }
 
 void Hdf5File::reserve(std::size_t bytes) {
@@ -132,6 +144,20 @@ void add_array_bytes(hid_t group, std::vector<ArrayBytes>& all) {
   }
 }
 
+/// Of the root: pairs of first byte and length.
+constexpr const char* kUnused = "unused_bytes";
+
+std::vector<ArrayBytes> unused_of(hid_t file) {
+  std::vector<ArrayBytes> unused;
+  if (H5Aexists_by_name(file, "/", kUnused, H5P_DEFAULT) <= 0) return unused;
+  const Id attribute(H5Aopen_by_name(file, "/", kUnused, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "open unused");
+  const Id space(H5Aget_space(attribute), H5Sclose, "shape unused");
+  std::vector<std::uint64_t> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  ensure(H5Aread(attribute, H5T_NATIVE_UINT64, values.data()), "read unused");
+  for (std::size_t n = 0; n + 1 < values.size(); n += 2) unused.push_back({values[n], values[n + 1]});
+  return unused;
+}
+
 }  // namespace
 
 void add_bytes_of(hid_t dataset, std::vector<ArrayBytes>& all) {
@@ -148,12 +174,12 @@ void Hdf5File::note_growth(bool anew) {
     undo_if_killed(path_);
   const bool grows = !anew && std::filesystem::exists(path_);
   const std::uint64_t length = grows ? std::filesystem::file_size(path_) : 0;
-  handle_->as_left = growth.known_ && growth.length_ == length;
-  if (!handle_->as_left) {
-    growth.known_ = false;
-    growth.arrays_.clear();
+  if (!growth.known_ || growth.length_ != length) {
+    growth = {};
     if (grows) {
       const Id file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "open " + path_);
+      growth.unused_ = unused_of(file);
+      growth.arrays_ = growth.unused_;
       add_array_bytes(file, growth.arrays_);
     }
   }
@@ -182,7 +208,6 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Hd
   std::error_code ignored;
   if (rank == 0) there = std::filesystem::exists(path, ignored) ? 1 : 0;
   MPI_Bcast(&there, 1, MPI_INT, 0, communicator);
-  MPI_Bcast(&handle_->as_left, 1, MPI_CXX_BOOL, 0, communicator);
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up access to " + path);
   ensure(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "use MPI for " + path);
   if (mode == Mode::read)
@@ -197,6 +222,7 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Hd
          mode == Mode::read ? "be a readable HDF5 file" : "be writable, and HDF5 where it is continued",
          mode == Mode::read ? "it may be damaged or of another kind"
                             : "check its folder, or take another name"});
+  if (growth != nullptr) tell_unused();
 }
 
 Hdf5File::~Hdf5File() {
@@ -206,8 +232,51 @@ Hdf5File::~Hdf5File() {
   if (handle_->spoilt || H5Fclose(handle_->file) < 0) some_left_open = true;
 }
 
-bool Hdf5File::as_left() const {
-  return handle_->as_left;
+/// So that who opens the file next need not take unused room for HDF5's own. An attribute holds 64 kB: the
+/// longest parts are told.
+void Hdf5File::tell_unused() {
+  constexpr std::size_t most = 3000;
+  std::vector<std::uint64_t> values;
+  if (!handle_->growth->unused_is_told_) {
+    std::vector<ArrayBytes> unused = handle_->growth->unused_;
+    std::sort(unused.begin(), unused.end(),
+              [](const ArrayBytes& a, const ArrayBytes& b) { return a.length > b.length; });
+    unused.resize(std::min(unused.size(), most));
+    for (const ArrayBytes& bytes : unused) values.insert(values.end(), {bytes.from, bytes.length});
+  }
+  auto count = static_cast<int>(values.size());
+  MPI_Bcast(&count, 1, MPI_INT, 0, handle_->communicator);
+  if (count == 0) return;
+  values.resize(static_cast<std::size_t>(count));
+  MPI_Bcast(values.data(), count, MPI_UINT64_T, 0, handle_->communicator);
+  together([&] {
+    if (H5Aexists_by_name(handle_->file, "/", kUnused, H5P_DEFAULT) > 0)
+      ensure(H5Adelete_by_name(handle_->file, "/", kUnused, H5P_DEFAULT), "replace unused");
+    const hsize_t length = values.size();
+    const Id space(H5Screate_simple(1, &length, nullptr), H5Sclose, "shape unused");
+    const Id attribute(H5Acreate_by_name(handle_->file, "/", kUnused, H5T_NATIVE_UINT64, space, H5P_DEFAULT,
+                                         H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose, "create unused");
+    ensure(H5Awrite(attribute, H5T_NATIVE_UINT64, values.data()), "write unused");
+  });
+}
+
+bool is_as_left(const std::string& path, const Hdf5Growth& growth, MPI_Comm communicator) {
+  int rank = 0, as_left = 0;
+  MPI_Comm_rank(communicator, &rank);
+  std::error_code absent;
+  if (rank == 0 && growth.known_ && !has_undo(path))
+    as_left = std::filesystem::file_size(path, absent) == growth.length_ && !absent ? 1 : 0;
+  MPI_Bcast(&as_left, 1, MPI_INT, 0, communicator);
+  return as_left == 1;
+}
+
+void remove_states_from(const std::string& first, const std::string& prefix, const std::string& path,
+                        Hdf5Growth& growth, MPI_Comm communicator) {
+  Hdf5File file(path, Hdf5File::Mode::append, communicator, &growth);
+  for (const std::string& name : file.names_in("/"))
+    if (name.starts_with(prefix) && name >= first) file.remove("/" + name);
+  file.close();
 }
 
 bool Hdf5File::exists(const std::string& object) const {
@@ -225,17 +294,13 @@ void Hdf5File::create_group(const std::string& group) {
   });
 }
 
-void Hdf5File::set_aside(const std::string& object) {
+void Hdf5File::remove(const std::string& object) {
   together([&] {
-    const std::string aside = "/replaced";
-    if (H5Lexists(handle_->file, aside.c_str(), H5P_DEFAULT) <= 0)
-      Id(H5Gcreate(handle_->file, aside.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
-         "create group " + aside + " in " + path_);
-    std::string place = aside + object;
-    for (int n = 2; H5Lexists(handle_->file, place.c_str(), H5P_DEFAULT) > 0; ++n)
-      place = fmt::format("{}{}_{}", aside, object, n);
-    ensure(H5Lmove(handle_->file, object.c_str(), handle_->file, place.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-           "set aside " + object + " in " + path_);
+    {
+      const Id group(H5Oopen(handle_->file, object.c_str(), H5P_DEFAULT), H5Oclose, "open " + object);
+      if (H5Iget_type(group) == H5I_GROUP) add_array_bytes(group, handle_->removed_arrays);
+    }
+    ensure(H5Ldelete(handle_->file, object.c_str(), H5P_DEFAULT), "remove " + object + " from " + path_);
   });
 }
 

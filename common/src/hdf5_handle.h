@@ -39,10 +39,9 @@ struct Hdf5File::Handle {
   hid_t file = -1;
   MPI_Comm communicator = MPI_COMM_NULL;
   bool reads = false;
-  Hdf5Growth* growth = nullptr;        ///< until the file has closed
-  bool as_left = false;                ///< the file that grows is the one that `growth` has left
-  std::vector<ArrayBytes> new_arrays;  ///< of a file that grows
-  bool spoilt = false;                 ///< a write has failed on some rank
+  Hdf5Growth* growth = nullptr;                        ///< until the file has closed
+  std::vector<ArrayBytes> new_arrays, removed_arrays;  ///< of a file that grows
+  bool spoilt = false;                                 ///< a write has failed on some rank
 };
 
 }  // namespace suffuse

@@ -126,6 +126,11 @@ void drop_undo(const std::string& path) {
   fs::remove(undo_of(path), ignored);
 }
 
+bool has_undo(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(undo_of(path), ignored);
+}
+
 void undo_if_killed(const std::string& path) {
   std::ifstream note(undo_of(path), std::ios::binary);
   if (!note) return;

@@ -18,6 +18,9 @@ void write_undo(const std::string& path, std::uint64_t length, std::vector<Array
 /// After the file has been closed.
 void drop_undo(const std::string& path);
 
+/// Is there a note?
+bool has_undo(const std::string& path);
+
 /// Makes the file what it was, if a writer was killed.
 void undo_if_killed(const std::string& path);
 

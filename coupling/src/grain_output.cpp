@@ -225,18 +225,16 @@ GrainOutput::GrainOutput(std::string path, bool append)
 
 void GrainOutput::write(const GrainSnapshot& snapshot, MPI_Comm communicator) {
   const std::string name = fmt::format("{}{:012d}", names::kStep, snapshot.step), step = "/" + name;
-  bool is_next = false;  // after what this object has written
+  // After what this object has written?
+  const bool is_next = name > last_ && is_as_left(path_, growth_, communicator);
+  if (append_ && !is_next) remove_states_from(name, names::kStep, path_, growth_, communicator);
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
   Shown shown{step, snapshot.time, 0, 0};
   {
     Hdf5File file(path_, append_ ? Hdf5File::Mode::append : Hdf5File::Mode::create, communicator, &growth_);
     append_ = true;
-    is_next = file.as_left() && !last_.empty() && name > last_;
     file.reserve(room_for(snapshot, communicator));
-    if (!is_next)
-      for (const std::string& old : file.names_in("/"))
-        if (old.starts_with(names::kStep) && old >= name) file.set_aside("/" + old);
     write_provenance(file);
     file.create_group(step);
     file.set_attribute(step, names::kTime, snapshot.time);

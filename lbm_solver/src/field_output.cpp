@@ -105,17 +105,16 @@ void FieldOutput::write(const Fluid& fluid) {
   Snapshot snapshot{group, time, {}};
   for (const Field field : settings_.fields) snapshot.fields.emplace_back(facts_of(field).word);
   std::sort(snapshot.fields.begin(), snapshot.fields.end());  // as names_in has them
-  bool is_next = false;                                       // after what this object has written
+  const bool anew = last_.empty() && !settings_.append;
+  // After what this object has written?
+  const bool is_next = group > last_ && is_as_left(settings_.path, growth_, d.communicator());
+  if (!anew && !is_next) remove_states_from(group, kStep, settings_.path, growth_, d.communicator());
   {
-    const auto mode = last_.empty() && !settings_.append ? Hdf5File::Mode::create : Hdf5File::Mode::append;
+    const auto mode = anew ? Hdf5File::Mode::create : Hdf5File::Mode::append;
     Hdf5File file(settings_.path, mode, d.communicator(), &growth_);
-    is_next = file.as_left() && !last_.empty() && group > last_;
     std::size_t values = 0;
     for (const Field field : settings_.fields) values += facts_of(field).components;
     file.reserve(values * sizeof(float) * CellBox{{0, 0, 0}, d.cells()}.volume());
-    if (!is_next)
-      for (const std::string& name : file.names_in("/"))
-        if (name.starts_with(kStep) && name >= group) file.set_aside("/" + name);
     write_provenance(file);
     for (int axis = 0; axis < 3; ++axis)
       file.set_attribute("/", fmt::format("origin_{}_m", "xyz"[axis]), settings_.origin[axis]);

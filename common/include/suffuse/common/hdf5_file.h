@@ -28,10 +28,23 @@ struct ArrayBytes {
 /// next need not be looked up in it again.
 class Hdf5Growth {
   friend class Hdf5File;
+  friend bool is_as_left(const std::string&, const Hdf5Growth&, MPI_Comm);
+  // On rank 0
   bool known_ = false;
   std::uint64_t length_ = 0;        ///< of the file that `arrays_` are those of
-  std::vector<ArrayBytes> arrays_;  ///< on rank 0
+  std::vector<ArrayBytes> arrays_;  ///< there are or were: HDF5 does not use the room of removed ones again
+  std::vector<ArrayBytes> unused_;  ///< of removed ones
+  bool unused_is_told_ = true;      ///< in the file
 };
+
+/// Is the file the one that this Hdf5Growth left, with what was written then and no more? Collective.
+bool is_as_left(const std::string& path, const Hdf5Growth& growth, MPI_Comm communicator);
+
+/// Removes from a file that grows, if there is one, the groups under its root whose names begin with `prefix`
+/// and are not less than `first`. In an opening of its own: what HDF5 would put in their place then could be
+/// anything. Collective.
+void remove_states_from(const std::string& first, const std::string& prefix, const std::string& path,
+                        Hdf5Growth& growth, MPI_Comm communicator);
 
 /// An HDF5 file that all ranks of a communicator write and read together. Every call is collective. No HDF5
 /// type is visible here. What a file or its disk does not take or hold is a UserError, the same on every
@@ -50,9 +63,6 @@ class Hdf5File {
   /// UserError where there are none, before anything has been changed. Collective.
   void reserve(std::size_t bytes);
 
-  /// Of a file that grows: is it the one that its Hdf5Growth left, with what was written then and no more?
-  bool as_left() const;
-
   /// The last step of a file that was written: a UserError where the disk did not take all. A destructor
   /// closes too, and cannot say it. Collective.
   void close();
@@ -63,9 +73,7 @@ class Hdf5File {
 
   bool exists(const std::string& object) const;
   void create_group(const std::string& group);
-  /// Out of the way of a new one of this name, into the group /replaced. Nothing is removed: HDF5 would leave
-  /// room behind of which nobody knows any more what is in it.
-  void set_aside(const std::string& object);
+  void remove(const std::string& object);
   /// Names of the objects right under a group, sorted.
   std::vector<std::string> names_in(const std::string& group) const;
 
@@ -88,6 +96,7 @@ class Hdf5File {
  private:
   void together(const std::function<void()>& work) const;
   void note_growth(bool anew);
+  void tell_unused();
 
   struct Handle;
   std::unique_ptr<Handle> handle_;

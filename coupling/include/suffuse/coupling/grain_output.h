@@ -47,7 +47,7 @@ class GrainOutput {
   /// `path` of the HDF5 file; the XDMF file is named like it. With `append` snapshots of an earlier run stay.
   GrainOutput(std::string path, bool append);
 
-  /// A snapshot of the same or a later step already in the file goes to the group /replaced. All ranks have a
+  /// A snapshot of the same or a later step already in the file is dropped. All ranks have a
   /// network or none has. Collective.
   void write(const GrainSnapshot& snapshot, MPI_Comm communicator);
 

@@ -54,8 +54,8 @@ class FieldOutput {
  public:
   FieldOutput(const FieldOutputSettings& settings, const Units& units);
 
-  /// Collective. A snapshot of the same or a later step already in the file (an earlier run's) goes to the
-  /// group /replaced.
+  /// Collective. A snapshot of the same or a later step already in the file (an earlier run's) is replaced or
+  /// dropped.
   void write(const Fluid& fluid);
 
  private:
