@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "suffuse/common/grain_series_names.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/provenance.h"
 #include "suffuse/lbm/cell_array.h"
 
 namespace suffuse::lbm {
 
-namespace {
+namespace names = grain_series;
 
-/// Begins the name of a snapshot's group; its step follows, with twelve digits.
-constexpr const char* kStep = "step_";
+namespace {
 
 struct Snapshot {
   std::string group;
@@ -100,7 +100,7 @@ FieldOutput::FieldOutput(const FieldOutputSettings& settings, const Units& units
 
 void FieldOutput::write(const Fluid& fluid) {
   const Decomposition& d = fluid.decomposition();
-  const std::string group = fmt::format("{}{:012d}", kStep, fluid.steps());
+  const std::string group = fmt::format("{}{:012d}", names::kStep, fluid.steps());
   const double time = units_.time_to_si(static_cast<double>(fluid.steps()));
   Snapshot snapshot{group, time, {}};
   for (const Field field : settings_.fields) snapshot.fields.emplace_back(facts_of(field).word);
@@ -108,7 +108,7 @@ void FieldOutput::write(const Fluid& fluid) {
   const bool anew = last_.empty() && !settings_.append;
   // After what this object has written?
   const bool is_next = group > last_ && is_as_left(settings_.path, growth_, d.communicator());
-  if (!anew && !is_next) remove_states_from(group, kStep, settings_.path, growth_, d.communicator());
+  if (!anew && !is_next) remove_states_from(group, names::kStep, settings_.path, growth_, d.communicator());
   {
     const auto mode = anew ? Hdf5File::Mode::create : Hdf5File::Mode::append;
     Hdf5File file(settings_.path, mode, d.communicator(), &growth_);
@@ -120,7 +120,7 @@ void FieldOutput::write(const Fluid& fluid) {
       file.set_attribute("/", fmt::format("origin_{}_m", "xyz"[axis]), settings_.origin[axis]);
     file.set_attribute("/", "spacing_m", units_.spacing());
     file.create_group("/" + group);
-    file.set_attribute("/" + group, "time_s", time);
+    file.set_attribute("/" + group, names::kTime, time);
     for (const Field field : settings_.fields) {
       const ArrayPart part = part_of(d, facts_of(field).components > 1);
       const std::string array = "/" + group + "/" + facts_of(field).word;
@@ -139,8 +139,8 @@ void FieldOutput::write(const Fluid& fluid) {
   std::string grids;
   const Hdf5File file(settings_.path, Hdf5File::Mode::read, d.communicator());
   for (const std::string& name : file.names_in("/"))
-    if (name.starts_with(kStep))
-      grids += grid({name, file.number_attribute("/" + name, "time_s"), file.names_in("/" + name)});
+    if (name.starts_with(names::kStep))
+      grids += grid({name, file.number_attribute("/" + name, names::kTime), file.names_in("/" + name)});
   series_.write(grids, d.communicator());
 }
 

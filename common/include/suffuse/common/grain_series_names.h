@@ -3,7 +3,8 @@
 #include <string>
 
 /// Names in FILE_grains.h5, which runs write and `suffuse-analyse` reads (docs/analysis/suffuse-analyse.md):
-/// groups step_N with a box, what is periodic, and the groups of grains and contacts with their arrays.
+/// groups step_N with a box, what is periodic, and the groups of grains and contacts with their arrays. Files
+/// of fields have the same groups step_N, with their time.
 namespace suffuse::grain_series {
 
 inline constexpr const char kStep[] = "step_", kTime[] = "time_s", kBox[] = "box", kPeriodic[] = "periodic",
