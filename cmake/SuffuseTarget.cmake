@@ -36,7 +36,7 @@ function(suffuse_precompiled_headers target)
 endfunction()
 
 # CMAKE_UNITY_BUILD=ON, for a first build too, compiles a library's files some at a time: names in unnamed namespaces must differ within a
-# library or program then. Tests, benchmarks and vector kernels are compiled file by file.
+# library or program then. Benchmarks, fuzz tests and vector kernels are compiled file by file.
 function(suffuse_library)
   cmake_parse_arguments(ARG "" "NAME" "SOURCES;PUBLIC_LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(suffuse_${ARG_NAME} STATIC ${ARG_SOURCES})

@@ -70,7 +70,10 @@ def draw_record(series, results, output, width):
     axis = next((a for a in "xyz" if f"centre_of_grains_{a}_m" in series), "z")
     velocity = f"superficial_velocity_{axis}_m_per_s"
     series.require("hydraulic_gradient_layer_1", velocity)
-    stresses = [[s / column[0] for s in column] for column in numbered(series, "vertical_stress_pa_") if column[0] != 0] or numbered(series, "effective_stress_ratio_")
+    ratios = [[s / column[0] for s in column] if column[0] != 0 else None for column in numbered(series, "vertical_stress_pa_")]
+    if not any(ratios):
+        ratios = numbered(series, "effective_stress_ratio_")
+    stresses = {number: ratio for number, ratio in enumerate(ratios, start=1) if ratio is not None}  # none of a layer without stress at first
     gradient = [sum(values) / len(layers) for values in zip(*layers)]
     # After the bed has begun to move its own gradient hardly rises: driving gradient where there is one.
     driving = series["applied_gradient"] if "applied_gradient" in series else gradient
@@ -80,10 +83,10 @@ def draw_record(series, results, output, width):
     remaining = list(axes[1:])
     if stresses:
         panel = remaining.pop(0)
-        for number, (ratio, colour) in enumerate(zip(stresses, style.shades(len(stresses))), start=1):
-            panel.plot(layers[number - 1] if len(layers) == len(stresses) else gradient, ratio, color=colour, label=f"layer {number}" + (" (top)" if number == 1 else ""))
+        for (number, ratio), colour in zip(stresses.items(), style.shades(len(stresses))):
+            panel.plot(layers[number - 1] if len(layers) == len(ratios) else gradient, ratio, color=colour, label=f"layer {number}" + (" (top)" if number == 1 else ""))
         mark_critical(panel, {key: value for key, value in results.items() if "Terzaghi" in key})
-        panel.set(ylabel="vertical effective stress\nσ′/σ′₀ (−)", ylim=(min(0, *(min(r) for r in stresses)), max(1.1, *(r[0] for r in stresses))))
+        panel.set(ylabel="vertical effective stress\nσ′/σ′₀ (−)", ylim=(min(0, *(min(r) for r in stresses.values())), max(1.1, *(r[0] for r in stresses.values()))))
         panel.legend(fontsize=7, ncol=2)
     if rises:
         panel = remaining.pop(0)

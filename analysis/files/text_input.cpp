@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 
@@ -12,7 +13,8 @@
 namespace suffuse::analysis {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 20;
+// Bytes that are read at a time; fewer of a small file, as a series may have thousands of them.
+constexpr std::size_t kBlock = std::size_t{1} << 20, kSmallestBlock = std::size_t{1} << 14;
 
 }  // namespace
 
@@ -37,7 +39,7 @@ struct TextInput::Source {
 };
 
 TextInput::TextInput(std::string path, std::string who)
-    : path_(std::move(path)), who_(std::move(who)), source_(std::make_unique<Source>()), buffer_(2 * kBlock) {
+    : path_(std::move(path)), who_(std::move(who)), source_(std::make_unique<Source>()), block_(kBlock) {
   source_->descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   std::error_code ignored;  // a pipe has no size
   if (source_->descriptor < 0 || std::filesystem::is_directory(path_, ignored))
@@ -48,6 +50,9 @@ TextInput::TextInput(std::string path, std::string who)
   bytes_ = ignored ? 0 : static_cast<std::int64_t>(size);
   unsigned char magic[2] = {};
   const bool is_gzip = pread(source_->descriptor, magic, 2, 0) == 2 && magic[0] == 0x1f && magic[1] == 0x8b;
+  if (!is_gzip && bytes_ > 0)
+    block_ = std::clamp(static_cast<std::size_t>(bytes_) + 1, kSmallestBlock, kBlock);
+  buffer_.resize(2 * block_);
   if (!is_gzip) return;
   source_->gzip = gzdopen(source_->descriptor, "rb");
   gzbuffer(source_->gzip, 1 << 18);
@@ -62,17 +67,17 @@ bool TextInput::fill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, left);
   begin_ = 0;
   end_ = left;
-  if (buffer_.size() - end_ < kBlock) buffer_.resize(2 * buffer_.size());
+  if (buffer_.size() - end_ < block_) buffer_.resize(2 * buffer_.size());
   long got = 0;
   if (source_->gzip != nullptr) {
-    got = gzread(source_->gzip, buffer_.data() + end_, kBlock);
+    got = gzread(source_->gzip, buffer_.data() + end_, static_cast<unsigned>(block_));
     int code = Z_OK;
     gzerror(source_->gzip, &code);
     if (got < 0 || (code != Z_OK && code != Z_STREAM_END))
       throw_user_error({who_, "file", path_, "be a whole gzip file",
                         code == Z_BUF_ERROR ? "it is cut short" : "it is damaged"});
   } else {
-    got = read(source_->descriptor, buffer_.data() + end_, kBlock);
+    got = read(source_->descriptor, buffer_.data() + end_, block_);
     if (got < 0) throw_user_error({who_, "file", path_, "be readable", std::strerror(errno)});
   }
   source_->taken += got;

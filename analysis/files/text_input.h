@@ -38,6 +38,7 @@ class TextInput {
 
   std::string path_, who_;
   std::unique_ptr<Source> source_;
+  std::size_t block_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   std::int64_t line_number_ = 0, bytes_ = 0;

@@ -130,8 +130,10 @@ std::string onset_table(const LayerResults& results, const OnsetOfRun& run) {
   const std::size_t layers = results.at_rest.layers.size() - 1;
   const std::string lowest = std::to_string(layers);
   add("variance of the layers' void ratios", "S2", "all", run.variance, {}, {2.72e-5, {}}, "6.3");
-  add("hydraulic gradient of the bed", "i", "all", 0.0, run.gradient, {0.0, 1.050}, "6.4");
-  add("hydraulic gradient of the layer", "i", lowest, 0.0, run.lowest_gradient, {0.0, 1.251}, "6.5.6");
+  add("hydraulic gradient of the bed", "i", "all", results.at_rest.layers[layers].gradient, run.gradient,
+      {0.0, 1.050}, "6.4");
+  add("hydraulic gradient of the layer", "i", lowest, results.at_rest.layers[layers - 1].gradient,
+      run.lowest_gradient, {0.0, 1.251}, "6.5.6");
   for (const Quantity& quantity : quantities()) {
     const std::array<std::pair<std::size_t, const Said*>, 3> places{
         {{0, &quantity.top}, {layers - 1, &quantity.bottom}, {layers, &quantity.all}}};

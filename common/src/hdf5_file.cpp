@@ -76,7 +76,8 @@ void Hdf5File::together(const std::function<void()>& work) const {
   int failed = 0;
   try {
     work();
-  } catch (const std::runtime_error&) {  // of ensure and Id; the sentence below says what a person can do
+  } catch (const std::exception&) {  // of ensure and Id, or no memory; the sentence below says what a person
+                                     // can do
     failed = 1;
   }
   if (!any_failed(failed, path_, handle_->communicator)) return;

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_earlier.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse {
 
@@ -157,6 +159,11 @@ void undo_if_killed(const std::string& path) {
   }
   fs::resize_file(path, length);
   drop_undo(path);
+}
+
+std::optional<std::string> keep_earlier_hdf5(const std::string& path, const std::string& who) {
+  undo_if_killed(path);
+  return keep_earlier(path, who);
 }
 
 }  // namespace suffuse

@@ -226,7 +226,8 @@ void LbmCommand::run(ArgumentReader& reader) {
   RunRequest request;
   request.time = asked.time;
   request.steady = asked.steady;
-  request.window = asked.window;
+  request.window =
+      asked.window > 0 ? asked.window : asked.time / 20;  // of `until` too, however little is left
   if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
   if (request_.effects.buoyancy != Switch::off && !request_.gravity.is_zero()) refuse_double_buoyancy(lmp_);
   require_no_sets_of_grains(lmp_, reader.who());
@@ -239,6 +240,12 @@ void LbmCommand::run(ArgumentReader& reader) {
     port_->check_unchanged();
     const CoupledSettings now = settings_for_grains(lmp_, request_, *port_);
     port_->check_box(now.fluid.faces);
+    const CoupledSettings& before = simulation_->settings();
+    if (now.average_force != before.average_force || now.virtual_mass != before.virtual_mass)
+      throw_user_error({"lbm couple",
+                        now.average_force != before.average_force ? "average_force" : "virtual_mass",
+                        "changed", "stay as it was at the first `lbm run`",
+                        "write `lbm clear` before, and the scene anew"});
     simulation_->set_substeps(choose_substeps());
     simulation_->set_faces(now.fluid.faces);
     simulation_->set_gravity(now.gravity);

@@ -29,6 +29,8 @@ struct OutputRequest {
   std::vector<lbm::Field> fields;
   bool grains = false;
   bool contacts = false;  ///< beside the grains, which come with them
+
+  bool operator==(const OutputRequest&) const = default;
 };
 
 /// `lbm walls`: which walls of the script let water pass, and which side of the others holds water.

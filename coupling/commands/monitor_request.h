@@ -14,12 +14,16 @@ struct QuantityRequest {
   std::string group;            ///< of `mean_force`
   bool relative = false;        ///< divided by the first sample's value
   std::string name;             ///< `as NAME`; empty: made from the word
+
+  bool operator==(const QuantityRequest&) const = default;
 };
 
 /// Equal layers across an axis, low corner of the box included in LIGGGHTS's coordinates.
 struct LayerRequest {
   double low = 0, high = 0;  ///< m
   int count = 0;             ///< 0: none given
+
+  bool operator==(const LayerRequest&) const = default;
 };
 
 /// `lbm monitor ID every T file FILE [axis x|y|z] [layers LO HI N] QUANTITY ...`
@@ -29,6 +33,8 @@ struct MonitorRequest {
   int axis = 2;
   LayerRequest layers;
   std::vector<QuantityRequest> quantities;
+
+  bool operator==(const MonitorRequest&) const = default;
 };
 
 }  // namespace suffuse::coupling

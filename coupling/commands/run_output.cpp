@@ -13,6 +13,7 @@
 #include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_earlier.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/checkpoint.h"
@@ -30,7 +31,7 @@ void open_files_of(const OutputRequest& request, bool goes_on, LAMMPS_NS::LAMMPS
     for (const std::string& file : files_of(request)) {
       require_writable(file, who);
       if (goes_on) continue;
-      if (const auto earlier = keep_earlier(file, who))
+      if (const auto earlier = keep_earlier_hdf5(file, who))
         notes += fmt::format("{}: note: {} of an earlier run is now {}\n", who, file, *earlier);
     }
   });
@@ -104,7 +105,7 @@ void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const Ma
   CoupledSimulation& simulation = scene.simulation;
   std::erase_if(monitors_, [&](const auto& open) {
     return std::none_of(settings.monitors.begin(), settings.monitors.end(),
-                        [&](const MonitorRequest& m) { return m.id == open->request().id; });
+                        [&](const MonitorRequest& m) { return m == open->request(); });
   });
   for (const MonitorRequest& request : settings.monitors)
     if (std::none_of(monitors_.begin(), monitors_.end(),
@@ -113,7 +114,7 @@ void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const Ma
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
-                        [&](const OutputRequest& o) { return o.id == open->request.id; });
+                        [&](const OutputRequest& o) { return o == open->request; });
   });
   for (const OutputRequest& request : settings.outputs) {
     if (std::any_of(fields_.begin(), fields_.end(),

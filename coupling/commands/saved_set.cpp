@@ -30,6 +30,7 @@ constexpr const char* kGrains = "grains";
 constexpr const char* kSet = "set";
 /// The first line of it: raised with its layout.
 constexpr const char* kVersion = "suffuse state, version 2\n";
+constexpr std::string_view kAnyVersion = "suffuse state";
 
 std::string folder(const std::string& file, int n) {
   return fmt::format("{}.{}", file, n);
@@ -48,12 +49,43 @@ bool is_there(const std::string& path) {
   return fs::exists(fs::symlink_status(path));
 }
 
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Is it a folder with a state or a part of one in it, and nothing else?
+bool holds_only_a_state(const fs::path& folder) {
+  if (!fs::is_directory(fs::symlink_status(folder))) return false;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::array<const char*, 3> own = {kFluid, kGrains, kSet};
+    if (std::none_of(own.begin(), own.end(),
+                     [&](const std::string file) { return name == file || name == file + ".part"; }))
+      return false;
+  }
+  const std::string set = text_of(folder / kSet);
+  return set.empty() || set.starts_with(kAnyVersion);
+}
+
 void require_free(const std::string& file, const std::string& who) {
   const std::string grains = file + ".grains";
   const bool ours = last_of(file).has_value();
   if ((is_there(file) && !ours) || (is_there(grains) && !fs::is_symlink(fs::symlink_status(grains))))
     throw_user_error({who, "file", file, "be a name that is free, or of states that this command wrote",
                       "take another name, or move what is there away"});
+  for (const std::string& part : {folder(file, 1), folder(file, 2), file + ".new"}) {
+    if (!is_there(part)) continue;
+    if (!holds_only_a_state(part))
+      throw_user_error({who, "file", file,
+                        "be a name of which " + part + " is free: states are written there",
+                        "take another name, or move what is there away"});
+    if (!ours && part != file + ".new" && is_there((fs::path(part) / kSet).string()))
+      throw_user_error({who, "file", file,
+                        fmt::format("be the link to the states {} and {}", folder(file, 1), folder(file, 2)),
+                        fmt::format("it was moved or removed: remove these folders as well, or `ln -s {} {}`",
+                                    fs::path(part).filename().string(), file)});
+  }
   const fs::path place = fs::path(file).parent_path();
   if (const std::string at = place.empty() ? "." : place.string();
       !fs::is_directory(at) || access(at.c_str(), W_OK) != 0)
@@ -105,16 +137,11 @@ std::string contents(const fs::path& set) {
   return text;
 }
 
-std::string text_of(const fs::path& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 void require_whole(const std::string& who, const std::string& file, const fs::path& set) {
   const bool there = fs::is_regular_file(set / kGrains) && fs::is_regular_file(set / kSet);
   const std::string said = there ? text_of(set / kSet) : "";
   if (there && said == contents(set)) return;
-  if (said.starts_with("suffuse state") && !said.starts_with(kVersion))
+  if (said.starts_with(kAnyVersion) && !said.starts_with(kVersion))
     throw_user_error({who, "file", file, "be a state of version 2, not of " + said.substr(0, said.find('\n')),
                       "read it with the version of suffuse that wrote it"});
   throw_user_error({who, "file", file, "be whole, as it was saved",
@@ -146,9 +173,11 @@ void finish_set(const std::string& file, const std::string& who, MPI_Comm commun
     set.commit();
     wait_for_disk(fresh, who);
     const std::string next = folder(file, 3 - last_of(file).value_or(2));
+    const std::string target = fs::path(next).filename().string();
+    if (!last_of(file)) set_link(target, file);  // before there is a state that nothing would lead to
     fs::remove_all(next);
     fs::rename(fresh, next);
-    set_link(fs::path(next).filename().string(), file);
+    set_link(target, file);
     if (const std::string grains = file + ".grains"; !is_there(grains))
       set_link((fs::path(file).filename() / kGrains).string(), grains);
     const fs::path place = fs::path(file).parent_path();

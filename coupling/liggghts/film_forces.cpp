@@ -35,9 +35,10 @@ bool FilmForces::follow(LAMMPS_NS::LAMMPS* lmp, bool on, double smallest_radius,
                         const CoupledSimulation& simulation, const Planes& planes) {
   const bool is_ours = lmp->modify->find_fix(kFix) >= 0;
   if (!is_ours && find(lmp) != nullptr) return false;
-  if (is_ours == on && (!on || planes == planes_)) return false;
+  if (is_ours == on && (!on || (planes == planes_ && simulation.substeps() == substeps_))) return false;
   withdraw(lmp);
   planes_ = planes;
+  substeps_ = simulation.substeps();
   if (on) add(lmp, smallest_radius, simulation);
   return true;
 }

@@ -34,6 +34,7 @@ class FilmForces {
  private:
   void add(LAMMPS_NS::LAMMPS* lmp, double smallest_radius, const CoupledSimulation& simulation);
   Planes planes_;       ///< that the fix was made with
+  int substeps_ = 0;    ///< likewise
   double of_past_ = 0;  ///< s, of fixes that are gone
 };
 

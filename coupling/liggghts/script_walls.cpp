@@ -4,6 +4,8 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <numeric>
 
 #include "fix_mesh_surface.h"
@@ -138,17 +140,22 @@ ScriptWall mesh_wall(LAMMPS* lmp, FixWallGran& fix, FixMeshSurface& mesh, const 
   wall.name = fmt::format("{} mesh {}", fix.id, mesh.id);
   lbm::MeshWall shape = mesh_of(mesh, lmp->world);
   Vec3 sum = Vec3::Zero(), low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
-  for (auto& triangle : shape.triangles)
+  std::uint64_t print = 0;  // of the corners, in whatever order the triangles come
+  for (auto& triangle : shape.triangles) {
+    std::uint64_t one = 14695981039346656037ULL;  // FNV-1a over the coordinates
     for (Vec3& corner : triangle) {
+      for (const double x : corner) one = (one ^ std::bit_cast<std::uint64_t>(x + 0.)) * 1099511628211ULL;
       sum += corner;
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
       corner = in_cells(corner, origin, spacing);
     }
+    print += one ^ (one >> 32);
+  }
   wall.geometry = count_text(static_cast<std::int64_t>(shape.triangles.size()), "triangle");
   if (!shape.triangles.empty())
-    wall.geometry += fmt::format(" from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m", low[0], low[1],
-                                 low[2], high[0], high[1], high[2]);
+    wall.geometry += fmt::format(" from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g} m, sum {:08x}", low[0],
+                                 low[1], low[2], high[0], high[1], high[2], print & 0xffffffffU);
   wall.shape = std::move(shape);
   return wall;
 }

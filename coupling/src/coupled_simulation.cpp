@@ -224,9 +224,23 @@ void CoupledSimulation::step_fluid(bool loads_wanted) {
   times_.fluid += MPI_Wtime() - start - (times_.mapping + times_.exchange - before);
 }
 
+namespace {
+
+bool all_finite(const GrainArrays& grains, MPI_Comm communicator) {
+  double sum = 0;
+  for (std::size_t n = 0; n < 3 * static_cast<std::size_t>(grains.owned); ++n)
+    sum += 0 * grains.position[n] + 0 * grains.velocity[n] + 0 * grains.angular_velocity[n];
+  int broken = sum == 0 ? 0 : 1;
+  MPI_Allreduce(MPI_IN_PLACE, &broken, 1, MPI_INT, MPI_MAX, communicator);
+  return broken == 0;
+}
+
+}  // namespace
+
 void CoupledSimulation::step_method() {
   grains_.refresh();
   const GrainArrays grains = grains_.grains();
+  if (!all_finite(grains, fluid_.decomposition().communicator())) throw_lost_grain("lbm run", time_si());
   {
     const Stopwatch watch(times_.fluid);
     method_->step(grains);

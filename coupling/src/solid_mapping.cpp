@@ -256,7 +256,8 @@ void SolidMapping::cover_closed(const lbm::RowBlock& block) const {
   const float strength = settings_.cells.own_coefficients ? kLargestCellCoefficient : 1;
   for (int y = block.begin_y; y < block.end_y; ++y)
     for (int x = 0; x < box_.extent(0); ++x) {
-      if (closed_[static_cast<std::size_t>(x + box_.extent(0) * (y + box_.extent(1) * block.z))] == 0)
+      if (closed_[static_cast<std::size_t>(x + box_.extent(0) *
+                                                   (y + std::ptrdiff_t{box_.extent(1)} * block.z))] == 0)
         continue;
       const std::ptrdiff_t cell = x + arrays_.row_pitch * y + arrays_.plane_pitch * block.z;
       arrays_.strength[cell] = strength;

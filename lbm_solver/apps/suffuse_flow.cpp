@@ -13,6 +13,7 @@
 #include "suffuse/common/command_line_help.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/hdf5_earlier.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/provenance.h"
@@ -52,8 +53,8 @@ class FlowRun final : private RunSteps {
                         fmt::format("{:g} s, which are {:.3g} steps", flow_.time, steps),
                         fmt::format("be at most {:g} steps", Units::kMostSteps), "SI units"});
     add_spheres();
-    fluid_.set_force(force_at(flow_, units_, 0));
-    if (!flow_.restart_read.empty()) load_state(fluid_, flow_.restart_read);
+    if (!flow_.restart_read.empty()) load_state(fluid_, flow_.restart_read, &units_);
+    fluid_.set_force(force_at(flow_, units_, units_.time_to_si(static_cast<double>(fluid_.steps()))));
     for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
       fluid_cells_ += fluid_.is_solid({x, y, z}) ? 0 : 1;
     });
@@ -190,12 +191,12 @@ class FlowRun final : private RunSteps {
 
   void save() const {
     keep(flow_.restart_write, kRestart);
-    save_state(fluid_, flow_.restart_write);
+    save_state(fluid_, flow_.restart_write, &units_);
   }
 
   void keep(const std::string& file, const std::string& who) const {
     std::string earlier;
-    on_first_rank(who, MPI_COMM_WORLD, [&] { earlier = keep_earlier(file, who).value_or(""); });
+    on_first_rank(who, MPI_COMM_WORLD, [&] { earlier = keep_earlier_hdf5(file, who).value_or(""); });
     tell_earlier(file, earlier);
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "suffuse/common/collective_text.h"
@@ -82,9 +83,33 @@ void read_labels(Fluid& fluid, const Hdf5File& file) {
   });
 }
 
+/// Spacing (m) and time step (s).
+constexpr const char* kUnits = "/spacing_and_time_step";
+
+void write_units(const Units& units, Hdf5File& file, bool writes) {
+  file.create_array<double>(kUnits, {2});
+  const std::vector<double> values = {units.spacing(), units.time_step()};
+  file.write(kUnits, {{2}, {0}, {writes ? size(2) : 0}}, writes ? values : std::vector<double>{});
+}
+
+/// States of earlier versions say nothing of them.
+void require_units(const Units& units, const Hdf5File& file, const std::string& path) {
+  if (!file.exists(kUnits)) return;
+  if (file.extents(kUnits) != std::vector<std::size_t>{2})
+    throw_user_error({"fluid restart " + path, kUnits, "damaged", "be two numbers", "take another state"});
+  const std::vector<double> saved = file.read<double>(kUnits, {{2}, {0}, {2}});
+  const double now[2] = {units.spacing(), units.time_step()};
+  for (std::size_t n = 0; n < 2; ++n)
+    if (!(std::abs(saved[n] - now[n]) <= 1e-9 * now[n]))
+      throw_user_error({"fluid restart " + path, n == 0 ? "spacing" : "time step",
+                        fmt::format("{:g}", now[n]),
+                        fmt::format("be {:g} as in the run that saved it", saved[n]),
+                        n == 0 ? "m" : "s: it follows from viscosity, spacing and relaxation time"});
+}
+
 }  // namespace
 
-void save_state(const Fluid& fluid, const std::string& path) {
+void save_state(const Fluid& fluid, const std::string& path, const Units* units) {
   const Decomposition& d = fluid.decomposition();
   const std::string unfinished = path + ".part";
   on_first_rank("fluid restart", d.communicator(), [&] { require_replaceable(path, "fluid restart"); });
@@ -101,6 +126,7 @@ void save_state(const Fluid& fluid, const std::string& path) {
     else
       write_populations<float>(fluid, file);
     write_labels(fluid, file);
+    if (units != nullptr) write_units(*units, file, d.rank() == 0);
     file.close();
   }
   on_first_rank("fluid restart", d.communicator(), [&] {
@@ -109,7 +135,7 @@ void save_state(const Fluid& fluid, const std::string& path) {
   });
 }
 
-void load_state(Fluid& fluid, const std::string& path) {
+void load_state(Fluid& fluid, const std::string& path, const Units* units) {
   const Decomposition& d = fluid.decomposition();
   const Hdf5File file(path, Hdf5File::Mode::read, d.communicator());
   if (!file.exists("/populations") || !file.exists("/solid_labels"))
@@ -128,6 +154,7 @@ void load_state(Fluid& fluid, const std::string& path) {
   if (storage != wanted)
     throw_user_error({"fluid restart " + path, "storage", storage, "be " + wanted + " as in this run",
                       "set precision to " + storage});
+  if (units != nullptr) require_units(*units, file, path);
   fluid.set_progress(0, false);
   read_labels(fluid, file);
   fluid.set_progress(static_cast<long>(file.integer_attribute("/", "steps")),

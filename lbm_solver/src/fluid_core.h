@@ -34,7 +34,8 @@ class FluidCoreBase {
   bool is_closed(int x, int y, int z) const {
     if (closed_.empty()) return false;
     const CellBox& box = decomposition.local_box();
-    return closed_[static_cast<std::size_t>(x + box.extent(0) * (y + box.extent(1) * z))] != 0;
+    return closed_[static_cast<std::size_t>(x + box.extent(0) * (y + std::ptrdiff_t{box.extent(1)} * z))] !=
+           0;
   }
   bool has_closed() const { return !closed_.empty(); }
   /// No fluid, but for what a partly covered cell leaves open.

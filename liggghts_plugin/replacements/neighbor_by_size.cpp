@@ -32,9 +32,14 @@ void NeighborBySize::choose_build(int index, NeighRequest* request) {
 }
 
 void NeighborBySize::granular_by_size(NeighList* list) {
-  bin_atoms();  // walls of triangles and others read these bins; it also finds grains whose position is no
-                // number
   const int owned = atom->nlocal;
+  double sum = 0;
+  for (int n = 0; n < 3 * (owned + atom->nghost); ++n) sum += 0 * atom->x[0][n];
+  if (!(sum == 0))
+    error->one(FLERR,
+               "Position of a grain is not a number: the simulation is unstable; take a smaller time step, "
+               "or see what forces the script adds");
+  bin_atoms();  // walls of triangles and others read these bins
   if (owned == 0) {
     list->inum = 0;
     return;

@@ -1,12 +1,17 @@
 #include "compute_broken_contacts.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <fstream>
 
 #include "comm.h"
 #include "fix_compute_reference.h"
 #include "lammps.h"
 #include "pair_exchange.h"
+#include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/safe_file.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -85,15 +90,17 @@ bool ComputeBrokenContacts::read_reference_file() {
     found = in.is_open();
     std::string header;
     if (found) std::getline(in, header);
+    std::size_t expected = 0;
+    const bool counted = std::sscanf(header.c_str(), "# %zu contacts", &expected) == 1;
     GrainPair pair;
     while (found && in >> pair.low >> pair.high) pairs.push_back(pair);
-    if (found) readable = in.eof() && !pairs.empty();
+    if (found) readable = in.eof() && !pairs.empty() && (!counted || pairs.size() == expected);
   }
   MPI_Bcast(&found, 1, MPI_INT, 0, world);
   MPI_Bcast(&readable, 1, MPI_INT, 0, world);
   if (!readable)
     suffuse::throw_user_error({who(), "reference file", file_,
-                               "hold one header line and two grain numbers a line",
+                               "hold one header line and two grain numbers a line, as many as it says",
                                "delete it to take the reference anew"});
   if (found) reference_ = suffuse::share_out_by_hash(pairs, world);
   return found != 0;
@@ -101,16 +108,12 @@ bool ComputeBrokenContacts::read_reference_file() {
 
 void ComputeBrokenContacts::write_reference_file() const {
   const Pairs pairs = suffuse::gather_pairs(reference_, world);
-  int written = 1;
-  if (comm->me == 0) {
-    std::ofstream out(file_);
-    out << "# contacts at step " << update->ntimestep << ", the two grains' numbers\n";
-    for (const GrainPair& pair : pairs) out << pair.low << ' ' << pair.high << '\n';
-    out.close();
-    written = !out.fail();
-  }
-  MPI_Bcast(&written, 1, MPI_INT, 0, world);
-  if (!written)
-    suffuse::throw_user_error(
-        {std::string("compute ") + style, "reference file", file_, "be writable", "create its folder"});
+  const std::string who = std::string("compute ") + style;
+  suffuse::on_first_rank(who, world, [&] {
+    suffuse::SafeFile out(file_, who);
+    out.write(
+        fmt::format("# {} contacts at step {}, the two grains' numbers\n", pairs.size(), update->ntimestep));
+    for (const GrainPair& pair : pairs) out.write(fmt::format("{} {}\n", pair.low, pair.high));
+    out.commit();
+  });
 }

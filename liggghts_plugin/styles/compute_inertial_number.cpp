@@ -44,12 +44,14 @@ ComputeInertialNumber::ComputeInertialNumber(LAMMPS* lmp_in, int& iarg, int narg
 
 void ComputeInertialNumber::init() {
   ContactCompute::init();
-  if (lengths_step_ < 0) remember_box();
+  // Between runs a script may have numbered the steps anew or changed their length.
+  if (lengths_step_ < 0 || lengths_step_ > update->ntimestep || dt_ != update->dt) remember_box();
 }
 
 void ComputeInertialNumber::remember_box() {
   lengths_ = {domain->xprd, domain->yprd, domain->zprd};
   lengths_step_ = update->ntimestep;
+  dt_ = update->dt;
 }
 
 void ComputeInertialNumber::measure_rate() {

@@ -36,6 +36,7 @@ class ComputeInertialNumber : public ContactCompute {
   double rate_ = 0;  // 1/s
   std::array<double, 3> lengths_{};
   bigint lengths_step_ = -1;
+  double dt_ = 0;  // s, then
 };
 
 }  // namespace LAMMPS_NS

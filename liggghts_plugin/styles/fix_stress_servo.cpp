@@ -139,6 +139,7 @@ void FixStressServo::reset_dt() {
 }
 
 void FixStressServo::setup(int) {
+  if (seen_step_ >= 0 && (seen_step_ != update->ntimestep || seen_dt_ != update->dt)) memory_.window = {};
   sampler_->setup(0);
   measure_stress();
   measure_network();
@@ -196,6 +197,8 @@ void FixStressServo::check_sample() {
 
 void FixStressServo::end_of_step() {
   const bigint step = update->ntimestep;
+  seen_step_ = step;
+  seen_dt_ = update->dt;
   if (step % interval_ == 0) {
     measure_stress();
     if (step % network_every_ == 0) measure_network();

@@ -66,6 +66,8 @@ class FixStressServo : public Fix {
   double window_ = 0;            // s
   suffuse::ServoProgress progress_;
   bigint stop_step_ = -1;  // the run ends after this step
+  bigint seen_step_ = -1;  // the last one, and its length: a script may change both between runs
+  double seen_dt_ = 0;
   bool restored_ = false;
   suffuse::ServoGrains restored_grains_;  // of a restart file
   bool rate_note_given_ = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/grain_sample.h"
 
 namespace suffuse::micromechanics {
 
@@ -88,7 +89,8 @@ ConstrictionAnalysis analyse_constrictions(const Grading& grading, const Constri
   ConstrictionAnalysis result;
   result.split = options.split ? GradingSplit{*options.split, "given"}
                                : thesis_split(grading, options.relative_density, limits, stability);
-  std::tie(result.fine, result.coarse) = split_classes(grading.classes(options.classes), result.split.finer);
+  std::tie(result.fine, result.coarse) =
+      split_classes(sample_classes(grading, options.classes), result.split.finer);
   result.sizes = constriction_sizes(result.coarse, options.fractions, options.pore);
   result.controlling = result.sizes.at(0.35, options.relative_density);
   result.controlling_loosest = result.sizes.at(0.35, 0);

@@ -133,7 +133,7 @@ LayerReference::LayerReference(const Packing& packing, const HeightLayers& layer
 
 std::vector<BrokenContacts> LayerReference::broken(const Packing& packing) const {
   std::vector<BrokenSums> sums(contacts_.size());
-  std::map<GrainPair, int> unseen = layer_of_pair_;
+  std::multimap<GrainPair, int> unseen = layer_of_pair_;  // a pair may touch through two images
   for (const Contact& contact : packing.contacts) {
     if (!is_counted(packing, contact)) continue;
     if (const auto layer = layers_.of(packing, contact))

@@ -148,6 +148,8 @@ def check_refusals(program, folder):
         (water(more="lbm boundary zhi noslip\n") + "lbm run 1e-3\n", ["make one face a pressure face"])]
     amiss = mistakes_not_named(program, [(start + script, words) for script, words in cases], folder)
     expect(not amiss, "\n".join(amiss))
+    code, screen = program.run(start + "variable lost equal exp(1000)*0\nfix lost all addforce v_lost 0.0 0.0\n" + water() + "lbm run 0.1\n", folder)
+    expect(code == 4 and "motion of a grain" in screen and "not a number" in screen, f"grains that are lost: {code}, {screen[-400:]}")
     screen = run(program, folder, start + water(closures="drag tang graded no", more="lbm collision bgk\n") + "lbm plan 1\nlbm run 1e-3\n")
     expect("note: not used: lbm collision" in screen and "Tang et al. 2015" in screen, "no word about what is not used")
 

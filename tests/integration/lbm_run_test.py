@@ -96,6 +96,18 @@ def check_lost_flow(program):
         expect(0.28 < mach[-1] <= 0.3, f"the last rows have Mach numbers {mach[-3:]}")
 
 
+def check_changed_lines(program):
+    """Monitors and outputs that are written anew between two runs are what they say then."""
+    lines = "lbm monitor m every {every} file {name}.csv {quantity}\nlbm output o every 1e-3 file {name}.h5 {field}\nlbm run 2e-3\n"
+    with scratch() as folder:
+        program.must_run(wet_box(grains=4) + WATER + lines.format(every=1e-3, name="first", quantity="mass", field="velocity") +
+                         "lbm monitor m off\nlbm output o off\n" + lines.format(every=5e-4, name="second", quantity="bed", field="pressure"), folder)
+        first, second = (columns(pathlib.Path(folder) / f"{name}.csv") for name in ("first", "second"))
+        expect(len(first["time_s"]) == 3 and len(second["time_s"]) >= 4, f"{len(first['time_s'])} and {len(second['time_s'])} rows")
+        expect("bed_height_m" in second and "bed_height_m" not in first, "columns of the second monitor")
+        expect((pathlib.Path(folder) / "second.h5").exists(), "no file of the second output")
+
+
 def check_output(folder, screen, series):
     steps = [int(line.split()[0]) for line in screen.splitlines() if re.fullmatch(r"\s*\d+\s+\d+\s+[-+.e\d ]+", line)]
     expect(sorted(set(steps)) == sorted(steps) or steps.count(steps[0]) <= 2, f"thermo lines {steps}")
@@ -242,6 +254,7 @@ def main():
         check_drag_note(program)
     check_closed_box(program)
     check_lost_flow(program)
+    check_changed_lines(program)
     check_restart(program)
     check_time_over_restart(program)
     check_plan_of_graded_bed(program)

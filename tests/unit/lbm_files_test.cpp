@@ -297,6 +297,7 @@ TEST_CASE("a list of grids grows at its end, and stays as it was where it cannot
   XdmfSeries series(path.string(), "things");
   CHECK_FALSE(series.add(first, MPI_COMM_WORLD));  // nothing there yet
   CHECK_FALSE(std::filesystem::exists(path));
+  MPI_Barrier(MPI_COMM_WORLD);
   series.write(first, MPI_COMM_WORLD);
   CHECK(series.add(second, MPI_COMM_WORLD));
   const std::string both = text_of(path);

@@ -62,6 +62,19 @@ def main(program, mpirun, folder):
     one, two = last_row("whole"), last_row("rest")
     assert one[0] == two[0] and abs(float(one[3]) / float(two[3]) - 1) < 1e-13, (one, two)
 
+    # A force that swings is where it was; a state means what it meant.
+    swing = CASE.replace("[run]", "[force]\nacceleration = [0, 0, 0.01]\nfrequency = 0.7\n[run]").replace("every = 0.5", "every = 0.25")
+    for name, time, restart in [("swung", 1, ""), ("swung_half", 0.5, 'write = "swung_state.h5"'), ("swung_rest", 0.5, 'read = "swung_state.h5"')]:
+        assert run(name, time, text=swing.format(name=name, time=time, restart=restart)).returncode == 0
+    one, two = last_row("swung"), last_row("swung_rest")
+    assert one[0] == two[0] and abs(float(one[3]) / float(two[3]) - 1) < 1e-12, (one, two)
+    other = swing.format(name="other", time=0.5, restart='read = "swung_state.h5"')
+    for change, message in [(("relaxation_time = 1.1", "relaxation_time = 0.9"), "time step = "),
+                            (("spacing = 1e-4", "spacing = 2e-4"), "cells"),
+                            (("viscosity = 1e-6", "viscosity = 2e-6"), "time step = ")]:
+        bad = run("other", 1, ranks=1, text=other.replace(*change))
+        assert bad.returncode == 1 and message in bad.stderr and "swung_state.h5" in bad.stderr, bad
+
     good = CASE.format(name="bad", time=1, restart="")
     for change, message in [
         (('xlo = "noslip"', 'xlo = "nosli"'), "xlo = nosli, must be one of"),

@@ -182,6 +182,18 @@ TEST_CASE("the thesis's Table 4.1: D_c35/d85 of 8b and 11a, with the disc inscri
   CHECK(analyse_constrictions(appendix("A"), by_area).ratio() == Approx(0.595 * 1.17).epsilon(0.01));
 }
 
+TEST_CASE("a curve's gap lies between two classes, whatever the share of the fines") {
+  const auto ratio = [](double fines) {
+    return analyse_constrictions(Grading::from_curve(std::vector<GradingPoint>{
+                                     {1e-4, 0}, {2e-4, fines}, {1e-3, fines}, {1.5e-3, 1}}),
+                                 {})
+        .ratio();
+  };
+  // Of fines in 20 classes of equal mass one straddles the gap, unless their share is a multiple of 5 %.
+  for (const double fines : {0.08, 0.13, 0.18, 0.226, 0.23})
+    CHECK(ratio(fines) == Approx(ratio(0.20)).epsilon(0.03));
+}
+
 TEST_CASE("verdicts of the constriction criteria on either side of their limits") {
   ConstrictionAnalysis analysis;
   analysis.largest_erodible = 1;

@@ -19,7 +19,7 @@ using namespace suffuse::micromechanics;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Contacts in the plane x–z at evenly spaced angles, thinned out so that their density is E(θ).
 Packing planar_packing(const std::function<double(double)>& density_over_mean,
@@ -30,7 +30,7 @@ Packing planar_packing(const std::function<double(double)>& density_over_mean,
   packing.volume = 10;
   double due = 0;
   for (int k = 0; k < kAngles; ++k) {
-    const double angle = (k + 0.5) * 2 * kPi / kAngles;
+    const double angle = (k + 0.5) * 2 * pi / kAngles;
     due += density_over_mean(angle) / 2;
     if (due < 1) continue;
     due -= 1;
@@ -62,7 +62,7 @@ TEST_CASE("fits find known Fourier coefficients of the contacts and of both part
   const HarmonicFit tangential = fit_harmonics_absolute(plane.mean_tangential_force(), 4);
   // A bin averages over its width: bin_attenuation. 250 contacts a bin, whose thinning moves a bin's count by
   // one: 4e-3.
-  CHECK(contacts.mean == Approx(1 / (2 * kPi)));
+  CHECK(contacts.mean == Approx(1 / (2 * pi)));
   CHECK(contacts.harmonics[0].amplitude / bin_attenuation(2, bins) == Approx(a).margin(4e-3));
   CHECK(contacts.harmonics[0].direction == Approx(theta_a).margin(4e-3));
   CHECK(contacts.harmonics[1].amplitude / bin_attenuation(4, bins) == Approx(b).margin(4e-3));
@@ -75,7 +75,7 @@ TEST_CASE("fits find known Fourier coefficients of the contacts and of both part
   CHECK(tangential.harmonics[0].amplitude / bin_attenuation(2, bins) == Approx(at).margin(2e-3));
   CHECK(tangential_direction(tangential.harmonics[0]) == Approx(theta_t).margin(4e-3));
   CHECK(contacts(0.3) ==
-        Approx((1 + a * std::cos(2 * (0.3 - theta_a)) + b * std::cos(4 * (0.3 - theta_b))) / (2 * kPi))
+        Approx((1 + a * std::cos(2 * (0.3 - theta_a)) + b * std::cos(4 * (0.3 - theta_b))) / (2 * pi))
             .margin(1e-3));
   CHECK(sum_of(plane.contact_density()) * plane.width() == Approx(1));
   CHECK(sum_of(plane.normal_force_density()) * plane.width() == Approx(1));
@@ -115,7 +115,7 @@ TEST_CASE("cells of the sphere have one area, cover it once, and find the cell o
       covered += area;
       CHECK(grid.find(cell.centre()) == k);
     }
-    CHECK(covered == Approx(4 * kPi));
+    CHECK(covered == Approx(4 * pi));
   }
 }
 
@@ -143,8 +143,8 @@ TEST_CASE("the spherical histogram of even directions is flat, that of a second-
     const Vec3 n = grid.cell(k).centre();
     // D of the fabric tensor is the anisotropy itself: ⟨n n⟩ = 1/3 + 2 D/15. Scatter of 2e5 contacts: 3e-3 of
     // φ, 15/2 of it in D.
-    const double expected = (1 + n.dot(anisotropy * n)) / (4 * kPi);
-    CHECK(second_order_density(moments, n) == Approx(expected).margin(0.03 / (4 * kPi)));
+    const double expected = (1 + n.dot(anisotropy * n)) / (4 * pi);
+    CHECK(second_order_density(moments, n) == Approx(expected).margin(0.03 / (4 * pi)));
     // 4,000 directions a cell: 1.6 % (4 standard deviations: 6.5 %), and the cell's own width, some 2 %.
     CHECK(density[static_cast<std::size_t>(k)] == Approx(expected).epsilon(0.09));
   }

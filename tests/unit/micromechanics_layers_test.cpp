@@ -13,7 +13,7 @@ using namespace suffuse::micromechanics::testing;
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 LayerGrid grid_over(double side, int layers, int axis = 2) {
   LayerGrid grid;
@@ -32,15 +32,15 @@ Box half_space_below(double x) {
 
 TEST_CASE("a sphere cut by one plane gives the spherical segment") {
   const Vec3 centre(1, 2, 3);
-  CHECK(sphere_volume_in_box(centre, 2, half_space_below(1)) == Approx(4.0 / 3 * kPi * 8 / 2));
-  CHECK(sphere_volume_in_box(centre, 2, half_space_below(2)) == Approx(kPi * 9 * 3 / 3));
+  CHECK(sphere_volume_in_box(centre, 2, half_space_below(1)) == Approx(4.0 / 3 * pi * 8 / 2));
+  CHECK(sphere_volume_in_box(centre, 2, half_space_below(2)) == Approx(pi * 9 * 3 / 3));
   CHECK(sphere_volume_in_box(centre, 2, half_space_below(-1.1)) == 0);
-  CHECK(sphere_volume_in_box(centre, 2, half_space_below(3.5)) == Approx(4.0 / 3 * kPi * 8));
+  CHECK(sphere_volume_in_box(centre, 2, half_space_below(3.5)) == Approx(4.0 / 3 * pi * 8));
 }
 
 TEST_CASE("a sphere cut through its centre by two or three planes gives a quarter and an eighth") {
   // 1e-9: the stated error of the quadrature.
-  const double whole = 4.0 / 3 * kPi;
+  const double whole = 4.0 / 3 * pi;
   CHECK(sphere_volume_in_box(Vec3::Zero(), 1, {Vec3(0, 0, -kInf), Vec3::Constant(kInf)}) ==
         Approx(whole / 4).epsilon(1e-9));
   CHECK(sphere_volume_in_box(Vec3::Zero(), 1, {Vec3::Zero(), Vec3::Constant(kInf)}) ==
@@ -63,7 +63,7 @@ TEST_CASE("the boxes of a grid cut a sphere into parts that add up to it") {
       for (int y = -3; y < 3; ++y)
         for (int z = -3; z < 3; ++z)
           sum += sphere_volume_in_box(centre, radius, {0.6 * Vec3(x, y, z), 0.6 * Vec3(x + 1, y + 1, z + 1)});
-    CHECK(sum == Approx(4.0 / 3 * kPi * std::pow(radius, 3)).epsilon(1e-9));
+    CHECK(sum == Approx(4.0 / 3 * pi * std::pow(radius, 3)).epsilon(1e-9));
   }
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("layers of a simple cubic array all have its stress, void ratio and co
     for (const LayerSums& layer : sums) {
       const LayerState state = layer_state(layer, grid.layer_volume());
       CHECK((state.stress - force * Mat3::Identity()).norm() < 1e-9);  // F/(2R)² = 3; stated error of the cut
-      CHECK(state.void_ratio == Approx(6 / kPi - 1).epsilon(1e-9));
+      CHECK(state.void_ratio == Approx(6 / pi - 1).epsilon(1e-9));
       CHECK(state.coordination == Approx(6).epsilon(1e-9));
       CHECK(state.stable_share == Approx(1));
       CHECK(state.grains == Approx(64.0 / layers).epsilon(1e-9));
@@ -92,10 +92,10 @@ TEST_CASE("grains across a periodic face reach the layers at the other end") {
   packing.volume = 64;
   LayerGrid grid = grid_over(4, 4);
   auto sums = layer_sums(packing, grid, GrainArm::contact_point);
-  const double below = kPi * 0.4 * 0.4 * (1.5 - 0.4) / 3;  // cap of height 0.4 below z = 0
-  CHECK(sums[0].solid_volume == Approx(below));            // numbered from the top
-  CHECK(sums[3].solid_volume == Approx(kPi / 6 - below));
-  CHECK(sums[0].solid_volume + sums[3].solid_volume == Approx(kPi / 6).epsilon(1e-14));
+  const double below = pi * 0.4 * 0.4 * (1.5 - 0.4) / 3;  // cap of height 0.4 below z = 0
+  CHECK(sums[0].solid_volume == Approx(below));           // numbered from the top
+  CHECK(sums[3].solid_volume == Approx(pi / 6 - below));
+  CHECK(sums[0].solid_volume + sums[3].solid_volume == Approx(pi / 6).epsilon(1e-14));
   grid.period.setZero();
   sums = layer_sums(packing, grid, GrainArm::contact_point);
   CHECK(sums[0].solid_volume == 0);
@@ -137,7 +137,7 @@ TEST_CASE("a trimmed column takes only what lies in it, and an uncut side takes 
   for (const LayerSums& layer : sums) {
     // Two cells wide wherever it starts, so the state is that of the array.
     const LayerState state = layer_state(layer, grid.layer_volume());
-    CHECK(state.void_ratio == Approx(6 / kPi - 1).epsilon(1e-8));
+    CHECK(state.void_ratio == Approx(6 / pi - 1).epsilon(1e-8));
     CHECK(state.stress(2, 2) == Approx(3).epsilon(1e-8));
   }
   // Walls instead of periodic faces: nothing outside is cut off when the sides are the sample's own.
@@ -146,7 +146,7 @@ TEST_CASE("a trimmed column takes only what lies in it, and an uncut side takes 
   walls.cut = {false, false, true};
   packing.grains = {grain(1, 0.5, Vec3(0.45, 2, 1))};
   packing.contacts.clear();
-  CHECK(layer_sums(packing, walls, GrainArm::contact_point)[1].solid_volume == Approx(kPi / 6));
+  CHECK(layer_sums(packing, walls, GrainArm::contact_point)[1].solid_volume == Approx(pi / 6));
 }
 
 TEST_CASE("layers are numbered from the top unless asked otherwise") {

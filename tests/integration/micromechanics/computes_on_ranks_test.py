@@ -70,6 +70,15 @@ def rows_of(log):
     return [dict(zip(WORDS, values)) for _, *values in thermo_rows(log, len(WORDS) + 1)]
 
 
+def check_renumbered_steps(suffuse):
+    """The measured strain rate after `reset_timestep`, and with another time step."""
+    strained = "fix d all deform 1 x erate {} units box\nrun 50\nunfix d\n"
+    out = suffuse.must_run(1, SAMPLE + "compute i all inertial/number\nthermo_style custom step c_i[2] vol\nthermo 50\n" + strained.format(-1) +
+                           "reset_timestep 0\n" + strained.format(-5) + "timestep 1e-6\n" + strained.format(-2), "renumbered")
+    rates = [rate for _, rate, _ in thermo_rows(out, 3)][1::2]
+    check(len(rates) == 3 and all(abs(found / rate - 1) < 1e-2 for found, rate in zip(rates, (1, 5, 2))), f"strain rates 1, 5, 2 measured as {rates}")
+
+
 def main():
     with tempfile.TemporaryDirectory(prefix="suffuse-test-") as folder:
         suffuse = Suffuse(folder, __doc__)
@@ -83,6 +92,7 @@ def main():
         worst = compare(results)
         check_one_state(results[1])
         compare_dumps(suffuse.folder)
+        check_renumbered_steps(suffuse)
         print(f"largest relative difference between rank counts: {worst:.2e}")
 
 

@@ -51,7 +51,7 @@ class LayerReference {
 
  private:
   HeightLayers layers_;
-  std::map<GrainPair, int> layer_of_pair_;
+  std::multimap<GrainPair, int> layer_of_pair_;
   std::vector<double> contacts_;
 };
 
