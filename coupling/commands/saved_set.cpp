@@ -59,7 +59,8 @@ bool holds_only_a_state(const fs::path& folder) {
   if (!fs::is_directory(fs::symlink_status(folder))) return false;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    const std::array<const char*, 3> own = {kFluid, kGrains, kSet};
+    if (name.starts_with(kFluid)) continue;  // MPI's files beside it, too, which a killed run leaves
+    const std::array<const char*, 2> own = {kGrains, kSet};
     if (std::none_of(own.begin(), own.end(),
                      [&](const std::string file) { return name == file || name == file + ".part"; }))
       return false;
