@@ -9,6 +9,7 @@
 #include "contacts/hdf5_series.h"
 #include "contacts/snapshot.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -46,7 +47,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 std::vector<std::string> expanded(const std::vector<std::string>& patterns, const std::string& who) {
   std::vector<std::string> paths;
   for (const std::string& pattern : patterns) {
-    if (pattern.find_first_of("*?[") == std::string::npos || std::filesystem::exists(pattern)) {
+    if (pattern.find_first_of("*?[") == std::string::npos || is_there(pattern)) {
       paths.push_back(pattern);
       continue;
     }
@@ -77,7 +78,7 @@ std::unique_ptr<SnapshotSeries> open_series(const std::vector<std::string>& file
   std::vector<FoundDump> grains, contacts;
   std::int64_t bytes = 0;
   for (const std::string& path : paths) {
-    if (std::filesystem::is_regular_file(path) && Hdf5Series::is_hdf5(path)) {
+    if (is_file(path) && Hdf5Series::is_hdf5(path)) {
       if (paths.size() > 1)
         throw_user_error(
             {settings.who, "files", path, "be the only one, as an HDF5 file", "give each run by itself"});

@@ -14,6 +14,7 @@
 #include "grading/grading_names.h"
 #include "grading/sample_script.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/micromechanics/constriction_criteria.h"
 
 namespace suffuse::analysis {
@@ -245,7 +246,7 @@ void run(const SampleOptions& options) {
   check(options);
   options.outputs.require_new(kSample, files_of(options));
   const std::optional<NamedGrading> named =
-      std::filesystem::exists(options.grading) ? std::nullopt : named_grading(options.grading, kSample);
+      is_there(options.grading) ? std::nullopt : named_grading(options.grading, kSample);
   const Plan plan = plan_of(options, named);
   SampleScript script{"",
                       plan.sample,

@@ -13,6 +13,7 @@
 #include "grading/constriction_table.h"
 #include "grading/criteria_table.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/micromechanics/coordination.h"
 #include "verdict/flow_record.h"
@@ -81,7 +82,7 @@ void check(const VerdictOptions& options) {
   check_seepage_options(options.hydraulic, kVerdict);
   if (options.no_figures && !options.figures.empty())
     throw_user_error({kVerdict, "--figures", options.figures, "not stand beside --no-figures", ""});
-  if (!options.figures.empty() && files::exists(options.figures) && !files::is_directory(options.figures))
+  if (!options.figures.empty() && is_there(options.figures) && !is_folder(options.figures))
     throw_user_error({kVerdict, "--figures", options.figures, "be a folder", "this is a file"});
   if (!options.split.text.empty() && options.read.files.empty())
     throw_user_error({kVerdict, "--split", options.split.text, "have a sample", "add --sample"});

@@ -1,4 +1,5 @@
 #include "suffuse/common/toml_file.h"
+#include "suffuse/common/paths.h"
 
 #include <fmt/format.h>
 
@@ -128,7 +129,7 @@ std::size_t line_of_no_utf8(std::string_view text) {
 
 toml::table read_toml(const std::string& path, const std::string& who) {
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path) || !file)
+  if (!is_file(path) || !file)
     throw_user_error({who, "file", path, "be a file that can be read", "check the path"});
   std::string text{std::istreambuf_iterator<char>(file), {}};
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";

@@ -17,6 +17,7 @@
 #include "style_table_data.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/near_word.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/script_variables.h"
 
 namespace suffuse {
@@ -128,7 +129,7 @@ void require_a_readable_script(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "-in") != 0 && std::strcmp(argv[i], "-i") != 0) continue;
     const char* file = i + 1 < argc ? argv[i + 1] : "";
-    if (access(file, R_OK) != 0 || files::is_directory(file))
+    if (access(file, R_OK) != 0 || is_folder(file))
       throw_user_error(
           {"suffuse", "-in", *file ? file : "nothing", "name a readable script", "check the path"});
     return;

@@ -10,6 +10,7 @@
 #include "files/csv_cell.h"
 #include "files/number_parser.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/toml_file.h"
 #include "suffuse/study/placeholder.h"
 
@@ -205,8 +206,7 @@ std::string script_of(const Section& section) {
   const std::string name = section.text("script");
   if (name.empty()) section.complain("script", "not there", "name a LIGGGHTS script");
   const files::path path = files::absolute(files::path(section.file()).parent_path() / name);
-  if (!files::is_regular_file(path))
-    section.complain("script", name, "be a file (its path begins at the study's folder)");
+  if (!is_file(path)) section.complain("script", name, "be a file (its path begins at the study's folder)");
   return path.lexically_normal().string();
 }
 

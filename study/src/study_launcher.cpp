@@ -10,6 +10,7 @@
 
 #include "files/project_files.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/study/placeholder.h"
 
 namespace suffuse::study {
@@ -20,7 +21,7 @@ namespace files = std::filesystem;
 constexpr const char* kRanks = "{ranks}";
 
 bool can_run(const files::path& path) {
-  return files::is_regular_file(path) && access(path.c_str(), X_OK) == 0;
+  return is_file(path) && access(path.c_str(), X_OK) == 0;
 }
 
 bool is_on_path(const std::string& name) {

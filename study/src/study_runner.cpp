@@ -15,6 +15,7 @@
 #include "files/shell_word.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/script_variables.h"
 #include "suffuse/common/signal_watch.h"
@@ -30,7 +31,7 @@ constexpr const char* kWho = "suffuse-study";
 
 std::string find_program(const std::string& given) {
   if (!given.empty()) {
-    if (access(given.c_str(), X_OK) != 0 || files::is_directory(given))
+    if (access(given.c_str(), X_OK) != 0 || is_folder(given))
       throw_user_error({kWho, "--program", given, "be a program that can be run", ""});
     return files::absolute(given).string();
   }
@@ -252,7 +253,7 @@ class Runner {
   }
 
   void require_file(const StudyQuantity& quantity, const std::string& folder) const {
-    if (files::is_regular_file(files::path(folder) / quantity.cell.file)) return;
+    if (is_file(files::path(folder) / quantity.cell.file)) return;
     std::vector<std::string> names;
     for (const files::directory_entry& entry : files::directory_iterator(folder))
       if (entry.path().extension() == ".csv") names.push_back(entry.path().filename().string());

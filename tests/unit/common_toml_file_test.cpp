@@ -67,6 +67,8 @@ TEST_CASE("What is no TOML is told with its line") {
              Catch::Contains("line 1: "));  // a quote where toml++ sees none
   CHECK_THAT(suffuse::message_of([] { read_toml(".", "suffuse-study"); }),
              Catch::Contains("suffuse-study: file = ., must be a file"));
+  CHECK_THAT(suffuse::message_of([] { read_toml(std::string(300, 'x'), "suffuse-study"); }),
+             Catch::Contains("be a file that can be read"));
   const TomlText marked("\xEF\xBB\xBFn = 1\n");
   CHECK(read_toml(marked.path, "x").contains("n"));
 }
