@@ -103,6 +103,7 @@ void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const Ma
                         std::optional<double> continue_after) {
   LAMMPS_NS::LAMMPS* const lmp = scene.lmp;
   CoupledSimulation& simulation = scene.simulation;
+  if (continue_after) continue_after = simulation.time_si();  // what earlier runs since then wrote stays too
   std::erase_if(monitors_, [&](const auto& open) {
     return std::none_of(settings.monitors.begin(), settings.monitors.end(),
                         [&](const MonitorRequest& m) { return m == open->request(); });

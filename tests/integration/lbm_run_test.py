@@ -106,6 +106,13 @@ def check_changed_lines(program):
         expect(len(first["time_s"]) == 3 and len(second["time_s"]) >= 4, f"{len(first['time_s'])} and {len(second['time_s'])} rows")
         expect("bed_height_m" in second and "bed_height_m" not in first, "columns of the second monitor")
         expect((pathlib.Path(folder) / "second.h5").exists(), "no file of the second output")
+        # In a run that goes on a monitor written anew keeps the rows of its file, those since the saved state too.
+        monitor = "lbm monitor m every {} file kept.csv mass\n"
+        program.must_run(wet_box(grains=4) + WATER + monitor.format(1e-3) + "lbm run 2e-3\nlbm restart write saved\n", folder)
+        program.must_run(wet_box(restart="saved.grains") + WATER + monitor.format(1e-3) + "lbm restart read saved\nlbm run 2e-3\n" +
+                         "lbm monitor m off\n" + monitor.format(5e-4) + "lbm run 2e-3\n", folder)
+        times = columns(pathlib.Path(folder) / "kept.csv")["time_s"]
+        expect(len(times) >= 9 and times == sorted(set(times)), f"rows at {times}")
 
 
 def check_output(folder, screen, series):
