@@ -33,7 +33,7 @@ constexpr const char* kPlatenKeywords =
     "stress, fixed, opening, speed, collect, classes, mass, damping, area, type";
 /// The record in restart files: position, velocity, reference, and three values a class.
 constexpr int kPlatenVersion = 3;
-constexpr std::size_t kRecordFixed = 5;
+constexpr std::size_t kRecordFixed = 4;
 
 FixPropertyGlobal& property(LAMMPS* lmp, const char* name, const char* kind, int columns) {
   const int types = lmp->atom->ntypes;
@@ -202,12 +202,10 @@ void FixLoadingPlaten::take_drive() {
   constexpr double share = 0.1, speed = 0.02;
   drive_.load = *stress_ * area();
   drive_.mass = share * grains.solid_volume * grains.mean_density;
-  drive_.most_speed = speed * std::sqrt(*stress_ / grains.mean_density);
   // A run that goes on has the mass that the run began with, which grains may have left since.
   if (const double restored = std::exchange(restored_mass_, 0); restored > 0) drive_.mass = restored;
-  if (const double restored = std::exchange(restored_speed_, 0); restored > 0) drive_.most_speed = restored;
   if (given_mass_ > 0) drive_.mass = given_mass_;
-  if (given_speed_ > 0) drive_.most_speed = given_speed_;
+  drive_.most_speed = given_speed_ > 0 ? given_speed_ : speed * std::sqrt(*stress_ / grains.mean_density);
 }
 
 void FixLoadingPlaten::setup(int) {
@@ -309,7 +307,7 @@ double FixLoadingPlaten::compute_array(int row, int column) {
 
 void FixLoadingPlaten::write_restart(FILE* file) {
   if (comm->me != 0) return;
-  std::vector<double> values{motion_.position, motion_.velocity, reference_, drive_.mass, drive_.most_speed};
+  std::vector<double> values{motion_.position, motion_.velocity, reference_, drive_.mass};
   for (std::size_t k = 0; k < passed_.classes(); ++k)
     values.insert(values.end(),
                   {compute_array(static_cast<int>(k), 0), passed_.row(k).grains, passed_.row(k).mass});
@@ -329,7 +327,6 @@ void FixLoadingPlaten::restart(char* buffer) {
   motion_ = {values[0], values[1]};
   reference_ = values[2];
   restored_mass_ = values[3];
-  restored_speed_ = values[4];
   for (std::size_t k = 0; k < passed_.classes(); ++k)
     passed_.row(k) = {values[kRecordFixed + 3 * k + 1], values[kRecordFixed + 3 * k + 2]};
 }

@@ -67,7 +67,7 @@ class FixLoadingPlaten : public Fix {
   double opening_ = 0;                                        // m
   double collect_ = 0;                                        // m; 0: grains that pass stay in the box
   double given_speed_ = 0, given_mass_ = 0, given_area_ = 0;  // 0: chosen here
-  double restored_speed_ = 0, restored_mass_ = 0;             // of a restart file, for the first run
+  double restored_mass_ = 0;                                  // of a restart file, for the first run
   int type_ = 1;
 
   suffuse::platen::Motion motion_;
