@@ -9,7 +9,6 @@
 #include <map>
 
 #include "suffuse/common/error.h"
-#include "suffuse/common/paths.h"
 #include "suffuse/common/toml_file.h"
 
 namespace suffuse::analysis {
@@ -110,7 +109,7 @@ std::vector<std::string> find_sample_folders(const std::vector<std::string>& roo
     found.emplace(files::canonical(folder).string(), folder.lexically_normal().string());
   };
   for (const std::string& root : roots) {
-    if (!is_folder(root))
+    if (!files::is_directory(root))
       throw_user_error({who, "folder", root, "be a folder", "give folders of samples, or one above them"});
     if (files::exists(files::path(root) / "sample.toml")) add(root);
     const auto options = files::directory_options::skip_permission_denied;

@@ -273,8 +273,7 @@ void LbmRun::run(const RunRequest& request, std::optional<double> continue_after
   begin(request, continue_after);
   lbm::RunPlan plan{first_, last_};
   plan.until_steady = request.steady;
-  const double window = request.window > 0 ? request.window : request.time / 20;
-  plan.steady_every = std::max(10L, scene_.simulation.units().steps_in(window));
+  plan.steady_every = std::max(10L, scene_.simulation.units().steps_in(request.window));
   plan.ends_with_a_step = true;  // LIGGGHTS writes its last lines in a step that it knows to be the last
   ProgressLine progress(is_first_rank(scene_.lmp));
   lbm::RunEnd end;

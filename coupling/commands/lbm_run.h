@@ -22,7 +22,7 @@ struct RunRequest {
   /// End early once the fluid's superficial velocity and the grains' mean motion have changed by less than
   /// this share of themselves over `window`.
   std::optional<double> steady;
-  double window = 0;               ///< s; 0: a twentieth of the time
+  double window = 0;               ///< s
   std::vector<std::string> walls;  ///< lines of the manifest about them
 };
 

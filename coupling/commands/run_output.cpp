@@ -15,6 +15,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/common/hdf5_earlier.h"
 #include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"
 #include "suffuse/lbm/checkpoint.h"
 
@@ -41,8 +42,7 @@ void open_files_of(const OutputRequest& request, bool goes_on, LAMMPS_NS::LAMMPS
 bool exists_for_all(const std::string& file, MPI_Comm communicator) {
   int rank = 0, exists = 0;
   MPI_Comm_rank(communicator, &rank);
-  std::error_code ignored;
-  if (rank == 0) exists = std::filesystem::exists(file, ignored) ? 1 : 0;
+  if (rank == 0) exists = is_there(file) ? 1 : 0;
   MPI_Bcast(&exists, 1, MPI_INT, 0, communicator);
   return exists != 0;
 }

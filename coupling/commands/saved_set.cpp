@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -59,12 +58,10 @@ std::string text_of(const fs::path& path) {
 bool holds_only_a_state(const fs::path& folder) {
   if (!fs::is_directory(fs::symlink_status(folder))) return false;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with(kFluid)) continue;  // MPI's files beside it, too, which a killed run leaves
-    const std::array<const char*, 2> own = {kGrains, kSet};
-    if (std::none_of(own.begin(), own.end(),
-                     [&](const std::string file) { return name == file || name == file + ".part"; }))
-      return false;
+    const fs::path name = entry.path().filename();
+    const std::string whole = (name.extension() == ".part" ? name.stem() : name).string();
+    // MPI's files beside the fluid's, too, which a killed run leaves
+    if (!whole.starts_with(kFluid) && whole != kGrains && whole != kSet) return false;
   }
   const std::string set = text_of(folder / kSet);
   return set.empty() || set.starts_with(kAnyVersion);

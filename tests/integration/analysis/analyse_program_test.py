@@ -208,7 +208,7 @@ def check_hostile(program):
     for name, told in ((long, "long"), ("loop", "symbolic links")):
         program.must_refuse(["contacts", name, "g.dump"], told)
         program.must_refuse(["grading", name], name)
-        program.must_refuse(["reproduce", "table-4-1", name], name[:200])
+        program.must_refuse(["reproduce", "table-4-1", name], name)
     for line in (f"cd gone && rmdir ../gone && {program.path} reproduce table-4-1 .", f"{program.path} contacts c.dump g.dump > /dev/full"):
         (folder / "gone").mkdir()
         done = subprocess.run(["sh", "-c", line], cwd=folder, capture_output=True, text=True, timeout=60)
