@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "suffuse/common/error.h"
+#include "suffuse/micromechanics/sphere.h"
 
 namespace suffuse::analysis {
 
@@ -14,26 +15,14 @@ using micromechanics::Packing;
 void SampleBody::set_volume(Packing& packing, const std::array<bool, 3>& periodic) {
   periodic_ = periodic;
   const Box box{packing.box_low, packing.box_high};
-  if (settings_->region) {
-    Box region = *settings_->region;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!periodic[static_cast<std::size_t>(axis)]) continue;
-      region.low[axis] = std::max(region.low[axis], box.low[axis]);
-      region.high[axis] = std::min(region.high[axis], box.high[axis]);
-    }
-    if ((region.high - region.low).minCoeff() <= 0)
-      throw_user_error({settings_->who, "--region", "outside the periodic box", "be in it", ""});
-    packing.volume = micromechanics::volume_of(region);
-    return;
-  }
   if (settings_->volume) {
     packing.volume = *settings_->volume;
     return;
   }
   const Box bed = micromechanics::bed_box(micromechanics::grain_extent(packing), box, periodic);
-  packing.volume = micromechanics::volume_of(settings_->bed ? bed : box);
-  if (settings_->bed || !note_.empty() || packing.grains.empty() ||
-      !micromechanics::is_another_sample(box, bed))
+  const bool is_bed = settings_->bed || settings_->region;
+  packing.volume = micromechanics::volume_of(is_bed ? bed : box);
+  if (is_bed || !note_.empty() || packing.grains.empty() || !micromechanics::is_another_sample(box, bed))
     return;
   const Vec3 own = box.high - box.low, filled = bed.high - bed.low;
   note_ = fmt::format(
@@ -44,7 +33,14 @@ void SampleBody::set_volume(Packing& packing, const std::array<bool, 3>& periodi
 
 void SampleBody::restrict_to_region(Packing& packing) const {
   if (!settings_->region) return;
-  const Box& region = *settings_->region;
+  Box region = *settings_->region;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!periodic_[static_cast<std::size_t>(axis)]) continue;
+    region.low[axis] = std::max(region.low[axis], packing.box_low[axis]);
+    region.high[axis] = std::min(region.high[axis], packing.box_high[axis]);
+  }
+  if ((region.high - region.low).minCoeff() <= 0)
+    throw_user_error({settings_->who, "--region", "outside the periodic box", "be in it", ""});
   const Vec3 length = packing.box_high - packing.box_low;
   packing = micromechanics::part_inside(packing, [&](const Vec3& centre) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -57,6 +53,15 @@ void SampleBody::restrict_to_region(Packing& packing) const {
   });
   if (packing.grains.empty())
     throw_user_error({settings_->who, "--region", "no grain's centre", "lie in it", "lengths are in metres"});
+  packing.volume = micromechanics::volume_of(region);
+  double solids = 0;
+  for (const micromechanics::Grain& grain : packing.grains)
+    solids += micromechanics::sphere_volume(grain.radius);
+  if (solids > packing.volume)
+    throw_user_error({settings_->who, "--region",
+                      fmt::format("{} grains of {:.4g} m³ with their centres in {:.4g} m³",
+                                  packing.grains.size(), solids, packing.volume),
+                      "hold their volume", "give a body some grains wide"});
 }
 
 std::string both_notes(const std::string& first, const std::string& second) {

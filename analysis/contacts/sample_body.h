@@ -14,9 +14,11 @@ class SampleBody {
  public:
   explicit SampleBody(const ReadSettings& settings) : settings_(&settings) {}
 
-  /// The volume of the sample from its grains and its box, where the box is known.
+  /// The volume of the sample from its grains and its box, where the box is known; of all grains' bed, until
+  /// restrict_to_region().
   void set_volume(micromechanics::Packing& packing, const std::array<bool, 3>& periodic);
-  /// Leaves grains outside the region out, with their contacts.
+  /// With a region: leaves grains outside of it out (micromechanics::part_inside) and sets its volume.
+  /// Throws UserError for a region without grains or less than those in it.
   void restrict_to_region(micromechanics::Packing& packing) const;
   /// That a box was taken that is another body than the bed; empty if none was.
   const std::string& note() const { return note_; }

@@ -18,6 +18,7 @@
 using namespace LAMMPS_NS;
 using suffuse::micromechanics::Contact;
 using suffuse::micromechanics::kNotOwned;
+using suffuse::micromechanics::Listing;
 using suffuse::micromechanics::Packing;
 
 namespace {
@@ -169,7 +170,8 @@ suffuse::micromechanics::Image FixContactSampler::image_in(const Contact& found)
   const int own = atom->tag[found.first], other = atom->tag[found.second];
   const double* b = found.branch.data();
   const bool positive_side = b[0] > 0 || (b[0] == 0 && (b[1] > 0 || (b[1] == 0 && b[2] > 0)));
-  return {other, atom->radius[found.second], own == other ? positive_side : own > other};
+  const bool stands = own == other ? positive_side : own > other;
+  return {other, atom->radius[found.second], stands ? Listing::whole : Listing::elsewhere};
 }
 
 const Packing& FixContactSampler::packing(int group_bit) {

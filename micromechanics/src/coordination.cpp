@@ -35,13 +35,14 @@ CoordinationSums coordination_sums(const Packing& packing, SizeSplit split) {
     sums.contact_volume += contacts[i] * sphere_volume(radius);
   }
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     const bool first_fine = split.is_fine(packing.grains[static_cast<std::size_t>(contact.first)].radius);
     const bool second_fine = split.is_fine(second_radius(packing, contact));
-    sums.contacts += 1;
-    sums.coarse_coarse += !first_fine && !second_fine;
-    sums.fine_coarse += first_fine != second_fine;
-    sums.fine_fine += first_fine && second_fine;
+    sums.contacts += share;
+    (first_fine && second_fine   ? sums.fine_fine
+     : first_fine || second_fine ? sums.fine_coarse
+                                 : sums.coarse_coarse) += share;
   }
   return sums;
 }

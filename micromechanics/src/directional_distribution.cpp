@@ -96,7 +96,8 @@ PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bi
   for (auto* values : {&result.contacts, &result.normal, &result.tangential})
     values->assign(index(bins), 0.0);
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     const Vec3 normal = contact.branch.normalized();
     double along = normal[axes[0]], across = normal[axes[1]];
     const double in_plane = std::hypot(along, across);
@@ -111,9 +112,9 @@ PlaneDistribution plane_distribution(const Packing& packing, Plane plane, int bi
     }
     const int bin = std::min(static_cast<int>(std::atan2(across, along) / kFullTurn * bins), half - 1);
     for (const int where : {bin, bin + half}) {
-      result.contacts[index(where)] += 1;
-      result.normal[index(where)] += force;
-      result.tangential[index(where)] += sideways;
+      result.contacts[index(where)] += share;
+      result.normal[index(where)] += share * force;
+      result.tangential[index(where)] += share * sideways;
     }
   }
   return result;

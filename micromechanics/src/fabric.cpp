@@ -11,7 +11,7 @@ namespace {
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr int kHalf = kOrientationBins / 2;
 
-void add_angle(OrientationHistogram& histogram, double along_first, double along_second) {
+void add_angle(OrientationHistogram& histogram, double along_first, double along_second, double share) {
   if (along_first == 0 && along_second == 0) return;
   // The sign of a normal has no meaning: take the half turn [0, π) and add its opposite bin, so that the
   // histogram does not depend on which grain was listed first.
@@ -21,8 +21,8 @@ void add_angle(OrientationHistogram& histogram, double along_first, double along
   }
   const double angle = std::atan2(along_second, along_first);
   const int bin = std::min(static_cast<int>(angle / kTwoPi * kOrientationBins), kHalf - 1);
-  histogram.counts[static_cast<std::size_t>(bin)] += 1;
-  histogram.counts[static_cast<std::size_t>(bin + kHalf)] += 1;
+  histogram.counts[static_cast<std::size_t>(bin)] += share;
+  histogram.counts[static_cast<std::size_t>(bin + kHalf)] += share;
 }
 
 }  // namespace
@@ -30,12 +30,13 @@ void add_angle(OrientationHistogram& histogram, double along_first, double along
 FabricSums fabric_sums(const Packing& packing) {
   FabricSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     const Vec3 normal = contact.branch.normalized();
-    sums.contacts += 1;
-    sums.normals.add(normal * normal.transpose());
+    sums.contacts += share;
+    sums.normals.add(share * normal * normal.transpose());
     for (std::size_t plane = 0; plane < 3; ++plane)
-      add_angle(sums.planes[plane], normal[kPlaneAxes[plane][0]], normal[kPlaneAxes[plane][1]]);
+      add_angle(sums.planes[plane], normal[kPlaneAxes[plane][0]], normal[kPlaneAxes[plane][1]], share);
   }
   return sums;
 }

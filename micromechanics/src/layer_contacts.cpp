@@ -40,32 +40,40 @@ void for_grains_of(const Packing& packing, const HeightLayers& layers, std::opti
   }
 }
 
-/// Calls `add` with each contact of a layer (none: of all).
-template <class Add>
-void for_contacts_of(const Packing& packing, const HeightLayers& layers, std::optional<int> layer, Add add) {
+/// Calls `take(contact, share, layer)` with each contact within the layers.
+template <class Take>
+void for_contacts(const Packing& packing, const HeightLayers& layers, Take take) {
   for (const Contact& contact : packing.contacts) {
-    const auto own = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!own || (layer && *own != *layer)) continue;
-    add(contact);
+    const double part = contact_share(packing, contact);
+    const auto layer = part > 0 ? layers.of(packing, contact) : std::nullopt;
+    if (layer) take(contact, part, *layer);
   }
+}
+
+/// Calls `take(contact, share)` with each contact of a layer (none: of all).
+template <class Take>
+void for_contacts_of(const Packing& packing, const HeightLayers& layers, std::optional<int> layer,
+                     Take take) {
+  for_contacts(packing, layers, [&](const Contact& contact, double part, int own) {
+    if (!layer || own == *layer) take(contact, part);
+  });
 }
 
 /// How many contacts are strong, and their part of the stress along the axis.
 void add_strong_contacts(std::vector<LayerNetwork>& networks, const Packing& packing,
                          const HeightLayers& layers, const std::vector<double>& strong) {
   std::vector<double> stress(networks.size());
-  for (const Contact& contact : packing.contacts) {
-    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!layer) continue;
-    const double part = contact.force[layers.axis] * contact.branch[layers.axis];
-    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
+  for_contacts(packing, layers, [&](const Contact& contact, double counts, int layer) {
+    const double part =
+        branch_share(packing, contact) * contact.force[layers.axis] * contact.branch[layers.axis];
+    for_layer_and_all(layer, layers.layers, [&](std::size_t k) {
       const double threshold = strong.empty() ? networks[k].mean_normal_force : strong[k];
       const bool is_strong = normal_force(contact) >= threshold;
-      networks[k].strong_share += is_strong;
+      networks[k].strong_share += is_strong ? counts : 0;
       networks[k].strong_stress_share += is_strong ? part : 0;
       stress[k] += part;
     });
-  }
+  });
   for (std::size_t k = 0; k < networks.size(); ++k) {
     networks[k].strong_share = share(networks[k].strong_share, networks[k].contacts);
     networks[k].strong_stress_share = share(networks[k].strong_stress_share, stress[k]);
@@ -98,15 +106,13 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
       networks[k].stable_share += counts[g] >= 4;
     });
   }
-  for (const Contact& contact : packing.contacts) {
-    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!layer) continue;
-    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) {
-      networks[k].contacts += 1;
-      networks[k].mean_normal_force += normal_force(contact);
-      networks[k].sliding_share += is_sliding(contact, rule);
+  for_contacts(packing, layers, [&](const Contact& contact, double part, int layer) {
+    for_layer_and_all(layer, layers.layers, [&](std::size_t k) {
+      networks[k].contacts += part;
+      networks[k].mean_normal_force += part * normal_force(contact);
+      networks[k].sliding_share += is_sliding(contact, rule) ? part : 0;
     });
-  }
+  });
   for (LayerNetwork& network : networks) {
     network.coordination = share(network.coordination, network.grains);
     network.stable_share = share(network.stable_share, network.grains);
@@ -122,20 +128,17 @@ std::vector<LayerNetwork> layer_networks(const Packing& packing, const HeightLay
 
 LayerReference::LayerReference(const Packing& packing, const HeightLayers& layers)
     : layers_(layers), contacts_(static_cast<std::size_t>(layers.layers) + 1) {
-  for (const Contact& contact : packing.contacts) {
-    const auto layer = is_counted(packing, contact) ? layers.of(packing, contact) : std::nullopt;
-    if (!layer) continue;
-    const auto [low, high] = pair_of(packing, contact);
-    layer_of_pair_.emplace(GrainPair{low, high}, *layer);
-    for_layer_and_all(*layer, layers.layers, [&](std::size_t k) { contacts_[k] += 1; });
-  }
+  for_contacts(packing, layers, [&](const Contact& contact, double, int layer) {
+    layer_of_pair_.emplace(pair_of(packing, contact), layer);
+    for_layer_and_all(layer, layers.layers, [&](std::size_t k) { contacts_[k] += 1; });
+  });
 }
 
 std::vector<BrokenContacts> LayerReference::broken(const Packing& packing) const {
   std::vector<BrokenSums> sums(contacts_.size());
   std::multimap<GrainPair, int> unseen = layer_of_pair_;  // a pair may touch through two images
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    if (contact_share(packing, contact) == 0) continue;
     if (const auto layer = layers_.of(packing, contact))
       for_layer_and_all(*layer, layers_.layers, [&](std::size_t k) { sums[k].current += 1; });
     const auto [low, high] = pair_of(packing, contact);
@@ -201,9 +204,9 @@ ForceShares normal_force_distribution(const Packing& packing, const HeightLayers
                                       std::optional<int> layer, double mean) {
   ForceShares shares{};
   if (!(mean > 0)) return shares;
-  for_contacts_of(packing, layers, layer, [&](const Contact& contact) {
+  for_contacts_of(packing, layers, layer, [&](const Contact& contact, double part) {
     const double bin = std::clamp(normal_force(contact) / mean / kForceBin, 0.0, shares.size() - 1.0);
-    shares[static_cast<std::size_t>(bin)] += 1;
+    shares[static_cast<std::size_t>(bin)] += part;
   });
   normalise(shares);
   return shares;
@@ -212,9 +215,9 @@ ForceShares normal_force_distribution(const Packing& packing, const HeightLayers
 SlippingShares slipping_distribution(const Packing& packing, const HeightLayers& layers,
                                      std::optional<int> layer, const SlidingRule& rule) {
   SlippingShares shares{};
-  for_contacts_of(packing, layers, layer, [&](const Contact& contact) {
+  for_contacts_of(packing, layers, layer, [&](const Contact& contact, double part) {
     const auto bin = static_cast<std::size_t>(std::clamp(10 * slipping_index(contact), 0.0, 9.0));
-    shares[is_sliding(contact, rule) ? shares.size() - 1 : bin] += 1;
+    shares[is_sliding(contact, rule) ? shares.size() - 1 : bin] += part;
   });
   normalise(shares);
   return shares;

@@ -89,10 +89,11 @@ std::vector<LayerSums> layer_sums(const Packing& packing, const LayerGrid& grid,
 
 std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerGrid& grid,
                                             const SlidingRule& rule) {
-  std::vector<Packing> parts(static_cast<std::size_t>(grid.layers));
+  std::vector<SlidingSums> sums(static_cast<std::size_t>(grid.layers));
   const double low = grid.column.low[grid.axis], high = grid.column.high[grid.axis];
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     double middle = first_grain(packing, contact).position[grid.axis] - contact.branch[grid.axis] / 2;
     // Across a periodic face it depends on which grain is the first whether it lies in the box.
     if (grid.period[grid.axis] > 0 && (middle < low || middle >= high))
@@ -100,12 +101,9 @@ std::vector<SlidingSums> layer_sliding_sums(const Packing& packing, const LayerG
     const double from_low = (middle - low) / (high - low) * grid.layers;
     if (!(from_low >= 0 && from_low < grid.layers)) continue;
     const int layer = static_cast<int>(from_low);
-    auto& part = parts[static_cast<std::size_t>(grid.numbered_from_top ? grid.layers - 1 - layer : layer)];
-    part.contacts.push_back(contact);
-    part.contacts.back().second = 0;  // counted here, whoever owns the second grain
+    sums[static_cast<std::size_t>(grid.numbered_from_top ? grid.layers - 1 - layer : layer)].add(contact,
+                                                                                                 rule, share);
   }
-  std::vector<SlidingSums> sums;
-  for (const Packing& part : parts) sums.push_back(sliding_sums(part, rule));
   return sums;
 }
 

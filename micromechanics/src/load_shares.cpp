@@ -5,8 +5,9 @@ namespace suffuse::micromechanics {
 LoadShareSums load_share_sums(const Packing& packing, SizeSplit split) {
   LoadShareSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
-    const double trace = contact.branch.dot(contact.force);
+    const double share = branch_share(packing, contact);
+    if (share == 0) continue;
+    const double trace = share * contact.branch.dot(contact.force);
     const int fines =
         static_cast<int>(split.is_fine(packing.grains[static_cast<std::size_t>(contact.first)].radius)) +
         static_cast<int>(split.is_fine(second_radius(packing, contact)));

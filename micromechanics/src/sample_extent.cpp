@@ -67,14 +67,26 @@ Packing part_inside(const Packing& packing, const std::function<bool(const Vec3&
   }
   const auto place_of = [&](int grain) { return place[static_cast<std::size_t>(grain)]; };
   for (Contact contact : packing.contacts) {
-    const Vec3 second = first_grain(packing, contact).position - contact.branch;
+    const Grain first = first_grain(packing, contact);
     contact.first = place_of(contact.first);
-    if (contact.first == kNotOwned) continue;
-    if (owns_second(contact)) {
-      contact.second = place_of(contact.second);
-      if (contact.second != kNotOwned) part.contacts.push_back(contact);
-    } else if (is_inside(second)) {
-      add_image_contact(part, contact, image_of(packing, contact));
+    if (!owns_second(contact)) {
+      if (contact.first == kNotOwned) continue;
+      Image image = image_of(packing, contact);
+      if (!is_inside(first.position - contact.branch)) image.listing = Listing::own_half;
+      add_image_contact(part, contact, image);
+      continue;
+    }
+    const Grain second = packing.grains[static_cast<std::size_t>(contact.second)];
+    contact.second = place_of(contact.second);
+    if (contact.first != kNotOwned && contact.second != kNotOwned) {
+      part.contacts.push_back(contact);
+    } else if (contact.first != kNotOwned) {
+      add_image_contact(part, contact, {second.id, second.radius, Listing::own_half});
+    } else if (contact.second != kNotOwned) {
+      contact.first = contact.second;
+      contact.branch = -contact.branch;
+      contact.force = -contact.force;
+      add_image_contact(part, contact, {first.id, first.radius, Listing::own_half});
     }
   }
   for (WallContact wall : packing.walls) {

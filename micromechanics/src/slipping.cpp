@@ -42,18 +42,22 @@ bool is_sliding(const Contact& contact, const SlidingRule& rule) {
 
 std::int64_t contacts_above_limit(const Packing& packing, double tolerance) {
   return std::count_if(packing.contacts.begin(), packing.contacts.end(), [&](const Contact& contact) {
-    return is_counted(packing, contact) && is_above_limit(contact, tolerance);
+    return contact_share(packing, contact) > 0 && is_above_limit(contact, tolerance);
   });
+}
+
+void SlidingSums::add(const Contact& contact, const SlidingRule& rule, double share) {
+  contacts += share;
+  sliding += is_sliding(contact, rule) ? share : 0;
+  slipping_index += share * suffuse::micromechanics::slipping_index(contact);
+  mobilised_friction += share * suffuse::micromechanics::mobilised_friction(contact);
 }
 
 SlidingSums sliding_sums(const Packing& packing, const SlidingRule& rule) {
   SlidingSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
-    sums.contacts += 1;
-    sums.sliding += is_sliding(contact, rule);
-    sums.slipping_index += slipping_index(contact);
-    sums.mobilised_friction += mobilised_friction(contact);
+    const double share = contact_share(packing, contact);
+    if (share > 0) sums.add(contact, rule, share);
   }
   return sums;
 }

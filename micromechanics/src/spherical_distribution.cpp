@@ -78,12 +78,13 @@ SphericalDistribution spherical_distribution(const Packing& packing, const Spher
   const auto cells = static_cast<std::size_t>(grid.size());
   SphericalDistribution result{std::vector<double>(cells, 0.0), std::vector<double>(cells, 0.0)};
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     const double force = normal_force(contact);
     for (const Vec3& direction : {contact.branch, Vec3(-contact.branch)}) {
       const auto cell = static_cast<std::size_t>(grid.find(direction));
-      result.contacts[cell] += 1;
-      result.normal[cell] += force;
+      result.contacts[cell] += share;
+      result.normal[cell] += share * force;
     }
   }
   return result;
@@ -105,9 +106,10 @@ double second_order_density(const Mat3& fabric, const Vec3& direction) {
 Mat3 normal_force_moment(const Packing& packing) {
   Mat3 sum = Mat3::Zero();
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
     const Vec3 normal = contact.branch.normalized();
-    sum += normal_force(contact) * normal * normal.transpose();
+    sum += share * normal_force(contact) * normal * normal.transpose();
   }
   return sum;
 }

@@ -12,8 +12,10 @@ double arm_length(double radius, double overlap_length, double distance, GrainAr
 
 TensorSum stress_times_volume(const Packing& packing) {
   TensorSum sum;
-  for (const Contact& contact : packing.contacts)
-    if (is_counted(packing, contact)) sum.add(contact.branch * contact.force.transpose());
+  for (const Contact& contact : packing.contacts) {
+    const double share = branch_share(packing, contact);
+    if (share > 0) sum.add(share * contact.branch * contact.force.transpose());
+  }
   for (const WallContact& wall : packing.walls) sum.add(wall.branch * wall.force.transpose());
   return sum;
 }

@@ -10,9 +10,10 @@ namespace suffuse::micromechanics {
 NormalForceSums normal_force_sums(const Packing& packing) {
   NormalForceSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
-    sums.contacts += 1;
-    sums.normal_force += normal_force(contact);
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
+    sums.contacts += share;
+    sums.normal_force += share * normal_force(contact);
   }
   return sums;
 }
@@ -24,12 +25,13 @@ double mean_normal_force(const NormalForceSums& sums) {
 StrongSums strong_sums(const Packing& packing, double threshold) {
   StrongSums sums;
   for (const Contact& contact : packing.contacts) {
-    if (!is_counted(packing, contact)) continue;
-    const Mat3 term = contact.branch * contact.force.transpose();
-    sums.contacts += 1;
+    const double share = contact_share(packing, contact);
+    if (share == 0) continue;
+    const Mat3 term = branch_share(packing, contact) * contact.branch * contact.force.transpose();
+    sums.contacts += share;
     sums.stress.add(term);
     if (normal_force(contact) < threshold) continue;
-    sums.strong += 1;
+    sums.strong += share;
     sums.strong_stress.add(term);
   }
   return sums;

@@ -123,7 +123,10 @@ TEST_CASE("The grains' file holds every grain once, with its loads") {
     contact.friction = 0.25;
     contact.friction_limit = 2.5;
     contact.spring_force = 0.5;
-    add_image_contact(network, contact, {own + (n % 2 == 0 ? 1000 : 2000), 1, n % 2 == 0});
+    using micromechanics::Listing;
+    add_image_contact(
+        network, contact,
+        {own + (n % 2 == 0 ? 1000 : 2000), 1, n % 2 == 0 ? Listing::whole : Listing::elsewhere});
   }
   snapshot.step = 7;
   snapshot.time = 0.7;

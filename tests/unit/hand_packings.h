@@ -92,12 +92,12 @@ inline std::vector<Packing> shared_out(const Packing& whole, int ranks) {
       continue;
     }
     const Grain &one = whole.grains[first], &two = whole.grains[second];
-    add_image_contact(parts[first % parts.size()], listed, {two.id, two.radius, true});
+    add_image_contact(parts[first % parts.size()], listed, {two.id, two.radius, Listing::whole});
     Contact other = contact;
     other.first = local[second];
     other.branch = -contact.branch;
     other.force = -contact.force;
-    add_image_contact(parts[second % parts.size()], other, {one.id, one.radius, false});
+    add_image_contact(parts[second % parts.size()], other, {one.id, one.radius, Listing::elsewhere});
   }
   return parts;
 }

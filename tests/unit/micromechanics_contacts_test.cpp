@@ -97,7 +97,7 @@ TEST_CASE("a frictionless contact slides, except by the appendix's 0/0") {
 TEST_CASE("the share of sliding contacts counts each contact once") {
   Packing packing = two_grains({contact_with(10, 3, 0.3), contact_with(10, 1.5, 0.3),
                                 contact_with(10, 0, 0.3), contact_with(10, 0, 0.3)});
-  add_image_contact(packing, contact_with(10, 3, 0.3), {3, 0.5, false});
+  add_image_contact(packing, contact_with(10, 3, 0.3), {3, 0.5, Listing::elsewhere});
   const Sliding result = sliding(sliding_sums(packing, {}));
   CHECK(result.share == Approx(0.25));
   CHECK(result.mean_slipping_index == Approx(1.5 / 4));

@@ -97,8 +97,8 @@ TEST_CASE("a grain between its own periodic images has two contacts and stands i
   Packing packing;
   packing.grains.push_back(grain(1, 0.5, Vec3(0.5, 0.5, 0.5)));
   packing.volume = 1;
-  add_image_contact(packing, {0, 0, Vec3(1, 0, 0), Vec3(1, 0, 0), 0.3}, {1, 0.5, true});
-  add_image_contact(packing, {0, 0, Vec3(-1, 0, 0), Vec3(-1, 0, 0), 0.3}, {1, 0.5, false});
+  add_image_contact(packing, {0, 0, Vec3(1, 0, 0), Vec3(1, 0, 0), 0.3}, {1, 0.5, Listing::whole});
+  add_image_contact(packing, {0, 0, Vec3(-1, 0, 0), Vec3(-1, 0, 0), 0.3}, {1, 0.5, Listing::elsewhere});
   const CoordinationSums sums = coordination_sums(packing, {});
   CHECK(sums.contacts == 1);
   CHECK(contacts_per_grain(packing)[0] == 2);

@@ -45,6 +45,7 @@ compute s all stress/reduction split 0.5e-3 region ball
 compute k all stress/reduction split 0.5e-3 region core
 compute w all stress/reduction split 0.5e-3 bed walls yes
 compute z all coordination region cube
+compute zk all coordination region core
 compute lr all stress/layer z 3 region cube walls no
 compute lw all stress/layer z 5 region cube
 compute lb all stress/layer z 5 bed
@@ -56,7 +57,7 @@ dump_modify g format "%d %.17g %.17g %.17g %.17g"
 dump p all local 1 pairs.dump PAIRS
 dump_modify p format "FORMATS"
 """.replace("PAIRS", " ".join(f"c_pgl[{k}]" for k in range(1, 19))).replace("FORMATS", " ".join(["%.17g"] * 18))
-WORDS = ["c_b[7]", "c_r[7]", "c_rw[7]", "c_s[7]", "c_k[7]", "c_w[7]", "c_z[1]", "c_z[4]", "c_lr[4]", "c_lw[4]", "c_lb[4]", "c_lb[2]", "c_ls[4]", "c_in[4]"] + \
+WORDS = ["c_b[7]", "c_r[7]", "c_rw[7]", "c_s[7]", "c_k[7]", "c_w[7]", "c_z[1]", "c_z[4]", "c_zk[1]", "c_lr[4]", "c_lw[4]", "c_lb[4]", "c_lb[2]", "c_ls[4]", "c_in[4]"] + \
     [f"c_lw[{k}][3]" for k in range(1, 6)]
 SIDE, GAP, RADIUS = 4.9e-3, 0.98e-3, 0.5e-3
 
@@ -89,7 +90,9 @@ def plates(suffuse):
             bed = (SIDE + 2e-5) ** 3
             agree("c_w[7]", with_walls * SIDE ** 3 / bed, 1e-9)
             agree("c_s[7]", grains_only * SIDE ** 3 / (4 / 3 * math.pi * 4.25e-3 ** 3), 2e-4)  # all grains; its volume by points
-            agree("c_k[7]", 9 * 2 * GAP * grain_force / (3 * GAP) ** 3, 1e-9)  # 3 x 3 x 3 grains, contacts between two of them
+            # 3 x 3 x 3 grains whole, in as many cells of the array: its own stress and coordination.
+            agree("c_k[7]", grain_force / GAP ** 2, 1e-9)
+            agree("c_zk[1]", 6, 1e-12)
             agree("c_in[4]", grains_only, 1e-9)
             agree("c_z[1]", 2 * 300 / 125, 1e-12)
             agree("c_z[4]", 600 * 4 / 3 * math.pi * RADIUS ** 3 / SIDE ** 3, 1e-9)
@@ -123,6 +126,14 @@ def analysed(suffuse, boundary, by_hand):
         # Positions to 17 digits, the box in the header to six, which --bed does not read.
         check(close(float(row["mean_stress_pa"]), by_hand * SIDE ** 3 / volume, 1e-9, 0), f"{options}: p' {row['mean_stress_pa']}")
         check(close(float(row["porosity"]), 1 - solids / volume, 1e-9, 0), f"{options}: porosity {row['porosity']}")
+    # The inner 3 x 3 x 3 grains in as many cells of the array: its own stress and six contacts a grain.
+    code, out, err = suffuse.analyse("contacts", "grains.dump", "pairs.dump", "--region", *(3 * [GAP, 4 * GAP]), "--output", "series.csv")
+    check(code == 0, f"{out} {err}")
+    names, values = (line.split(",") for line in (suffuse.folder / "series.csv").read_text().splitlines())
+    row = {name: float(value) for name, value in zip(names, values) if value}
+    (suffuse.folder / "series.csv").unlink()
+    check(close(row["mean_stress_pa"], hertz(2e-5, RADIUS / 2) / GAP ** 2, 1e-9, 0), f"core: p' {row['mean_stress_pa']}")
+    check(close(row["coordination_number"], 6, 1e-12, 0) and row["grains"] == 27, f"core: Z {row['coordination_number']} of {row['grains']} grains")
     code, out, err = suffuse.analyse("contacts", "grains.dump", "pairs.dump")
     said = "say --bed" in err and code == 1 if boundary == "s" else "porosity and stresses are of the box" in out and code == 0
     check(said, f"boundary {boundary}: nothing said of the box: {out} {err}")

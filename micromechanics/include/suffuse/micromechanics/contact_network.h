@@ -15,7 +15,8 @@ inline constexpr int kNotOwned = -1;
 ///
 /// A contact between two owned grains is listed once. A contact between an owned grain and an image (another
 /// rank's grain, or a periodic image) is listed once for each owner, so that sums over a grain's own contacts
-/// need no communication; of those listings exactly one, over all ranks, counts (is_counted).
+/// need no communication; of those listings exactly one, over all ranks, stands for the contact in sums over
+/// contacts (contact_share).
 ///
 /// 80 bytes: a dump of 1 GB has six million of them.
 struct Contact {
@@ -30,11 +31,19 @@ struct Contact {
   double spring_force = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The second grain of one listing that this rank does not own, or of which it is a periodic image.
+/// What of its contact a listing stands for in sums over contacts.
+enum class Listing {
+  whole,
+  elsewhere,  ///< nothing: the second grain's owner lists the contact, too, and that one stands for it
+  own_half    ///< the second grain is not of the sample (part_inside): what is the first one's
+};
+
+/// The second grain of one listing that this rank does not own, or of which it is a periodic image, or that
+/// is not of the sample.
 struct Image {
   std::int64_t id = 0;  ///< identifier of the grain, unique over all ranks
   double radius = 0;    ///< m
-  bool counted = true;  ///< this listing stands for the contact in sums over contacts
+  Listing listing = Listing::whole;
 };
 
 /// A grain that this rank owns.
@@ -73,9 +82,11 @@ inline const Image& image_of(const Packing& packing, const Contact& contact) {
   return packing.images[static_cast<std::size_t>(-1 - contact.second)];
 }
 
-/// Does this listing stand for the contact in sums over contacts?
-inline bool is_counted(const Packing& packing, const Contact& contact) {
-  return owns_second(contact) || image_of(packing, contact).counted;
+/// What this listing counts in sums over contacts: 1, 0 or 1/2.
+inline double contact_share(const Packing& packing, const Contact& contact) {
+  if (owns_second(contact)) return 1;
+  const Listing listing = image_of(packing, contact).listing;
+  return listing == Listing::whole ? 1 : listing == Listing::own_half ? 0.5 : 0;
 }
 
 inline const Grain& first_grain(const Packing& packing, const Contact& contact) {
@@ -105,5 +116,9 @@ double tangential_force(const Contact& contact);
 
 /// Overlap of the two spheres, r₁ + r₂ − |branch|, m.
 double overlap(const Packing& packing, const Contact& contact);
+
+/// What this listing counts in sums of branch times force: 1, 0 or, of a contact with a grain that is not of
+/// the sample, the part of the branch from the first grain's centre to the point of contact.
+double branch_share(const Packing& packing, const Contact& contact);
 
 }  // namespace suffuse::micromechanics

@@ -33,8 +33,9 @@ bool is_another_sample(const Box& taken, const Box& bed,
 /// m³.
 double volume_of(const Box& box);
 
-/// Grains whose centre `is_inside`, the contacts between two of them and their contacts with walls. The
-/// volume and the box stay.
+/// Grains whose centre `is_inside`, whole, with all of their contacts: of one with a grain outside, what is
+/// theirs counts (Listing::own_half), so that coordination numbers and stresses over the body's volume are
+/// those of the packing it is cut from. The volume and the box stay.
 Packing part_inside(const Packing& packing, const std::function<bool(const Vec3& centre)>& is_inside);
 
 }  // namespace suffuse::micromechanics

@@ -47,6 +47,9 @@ struct SlidingSums {
   double sliding = 0;
   double slipping_index = 0;      ///< Σ S
   double mobilised_friction = 0;  ///< Σ μ S
+
+  /// Counts a contact as this share of one.
+  void add(const Contact& contact, const SlidingRule& rule, double share);
 };
 
 SlidingSums sliding_sums(const Packing& packing, const SlidingRule& rule);
