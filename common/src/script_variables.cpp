@@ -37,6 +37,14 @@ std::string known_for(const std::string& name, const std::vector<std::string>& s
                      settable.empty() ? "none" : fmt::format("{}", fmt::join(settable, ", ")));
 }
 
+/// Does a script's text use or set the variable?
+bool uses(const std::string& text, const std::string& name) {
+  if (!std::regex_match(name, std::regex("\\w+"))) return false;
+  return text.find("${" + name + "}") != text.npos ||
+         (name.size() == 1 && text.find('$' + name) != text.npos) ||
+         std::regex_search(text, std::regex("\\b(v_|variable\\s+|next\\s+)" + name + "\\b"));
+}
+
 /// A file's name with variables in it as a pattern: each stands for any text.
 std::regex pattern_of(const std::string& name) {
   static const std::regex variable(R"(\$\{[^}]*\}|\$[A-Za-z])");
@@ -61,39 +69,58 @@ std::string fingerprint_of(const std::string& text) {
 
 ScriptVariables::ScriptVariables(const std::string& script, const std::string& who,
                                  const std::map<std::string, std::string>& given)
-    : script_(script), folder_(files::path(script).parent_path().string()), values_(given) {
+    : script_(script), folder_(files::path(script).parent_path().string()), values_(given), certain_(given) {
   values_.insert_or_assign("script_folder", folder_.empty() ? "." : folder_);
-  read(script);
-  if (files_.empty())
+  read(script, {});
+  if (texts_.empty())
     throw_user_error({who, "script", script, "be readable", "check the path and the permissions"});
 }
 
-void ScriptVariables::read(const std::string& file) {
+void ScriptVariables::read(const std::string& file, const Choices& under) {
   const std::string path = files::path(file).lexically_normal().string();
-  std::ifstream stream(path);
-  if (!stream || contains(files_, path)) return;
-  files_.push_back(path);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  text_ += text + '\n';
+  std::vector<Choices>& ways = ways_[path];
+  const auto leads_here = [&](const Choices& way) {
+    return std::includes(under.begin(), under.end(), way.begin(), way.end());
+  };
+  if (std::any_of(ways.begin(), ways.end(), leads_here)) return;
+  ways.push_back(under);
+  if (!texts_.contains(path)) {
+    std::ifstream stream(path);
+    if (!stream) return;
+    text_ += texts_[path] = std::string{std::istreambuf_iterator<char>(stream), {}} + '\n';
+  }
+  const std::string text = texts_[path];
   static const std::regex other_file(R"(\b(?:include|jump)\s+["']?([^\s"']+))");  // in `if ... then` too
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    note_definition(line.substr(0, line.find('#')));
+    note_definition(line.substr(0, line.find('#')), under);
     for (std::sregex_iterator found(line.begin(), line.end(), other_file), end; found != end; ++found)
-      if ((*found)[1] != "SELF") include((*found)[1], line.starts_with("include"));
+      if ((*found)[1] != "SELF") include((*found)[1], line.starts_with("include"), under);
   }
 }
 
-void ScriptVariables::note_definition(const std::string& line) {
+void ScriptVariables::note_definition(const std::string& line, const Choices& under) {
   static const std::regex definition(R"(\bvariable\s+(\w+)\s+(\w+)(?:\s+([^\s"']+))?)");
   std::smatch found;
   if (!std::regex_search(line, found, definition)) return;
   const bool kept = std::find(std::begin(kKept), std::end(kKept), found[2].str()) != std::end(kKept);
   if (kept && found[3].matched) values_.emplace(found[1], found[3]);
+  if (!under.empty() || !line.starts_with("variable")) add(doubtful_, found[1]);
+  if (kept && !contains(doubtful_, found[1])) certain_.emplace(found[1], found[3]);
   if (kept || found[2] != "delete") add(kept ? settable_ : set_by_script_, found[1]);
 }
 
-void ScriptVariables::include(const std::string& words, bool always) {
+void ScriptVariables::include(const std::string& words, bool always, const Choices& under) {
+  // A variable alone is a file's whole name with its folder.
+  static const std::regex alone(R"(\$\{(\w+)\})");
+  if (std::regex_match(words, alone)) {
+    const auto value = values_.find(words.substr(2, words.size() - 3));
+    if (value == values_.end() || std::regex_match(value->second, alone))
+      all_found_ = false;
+    else
+      include(value->second, false, under);
+    return;
+  }
   const files::path path(words);
   const files::path folder = folder_of(path.parent_path().string());
   if (folder.string().find('$') != std::string::npos) all_found_ = false;
@@ -104,22 +131,24 @@ void ScriptVariables::include(const std::string& words, bool always) {
     if (entry.is_regular_file() && std::regex_match(entry.path().filename().string(), pattern))
       fitting.push_back(entry.path().string());
   std::sort(fitting.begin(), fitting.end());
-  if (always && words.starts_with("${script_folder}")) note_choices(path.filename().string(), fitting);
-  for (const std::string& file : fitting) read(file);
-}
-
-/// A file's name with one variable in it offers what stands in its place in the names of the files there.
-void ScriptVariables::note_choices(const std::string& name, const std::vector<std::string>& fitting) {
+  // A file's name with one variable in it offers what stands in its place in the names of the files there.
   static const std::regex one_variable(R"(([^$]*)\$\{(\w+)\}([^$]*))");
+  const std::string name = path.filename().string();
   std::smatch found;
-  if (!std::regex_match(name, found, one_variable)) return;
-  const auto before = static_cast<std::size_t>(found[1].length()),
-             after = static_cast<std::size_t>(found[3].length());
-  included_as_.emplace(found[2], name);
-  std::vector<std::string>& choices = choices_[found[2]];
+  const bool offers =
+      always && words.starts_with("${script_folder}") && std::regex_match(name, found, one_variable);
+  if (offers) included_as_.emplace(found[2], name);
   for (const std::string& file : fitting) {
-    const std::string there = files::path(file).filename().string();
-    add(choices, there.substr(before, there.size() - before - after));
+    Choices choices = under;
+    if (offers) {
+      const std::string there = files::path(file).filename().string();
+      const auto before = static_cast<std::size_t>(found[1].length());
+      const std::string value =
+          there.substr(before, there.size() - before - static_cast<std::size_t>(found[3].length()));
+      add(choices_[found[2]], value);
+      choices.emplace(found[2], value);
+    }
+    read(file, choices);
   }
 }
 
@@ -133,18 +162,32 @@ std::string ScriptVariables::folder_of(const std::string& name) const {
   return folder;
 }
 
-bool ScriptVariables::uses(const std::string& name) const {
-  if (!std::regex_match(name, std::regex("\\w+"))) return false;
-  return text_.find("${" + name + "}") != text_.npos ||
-         (name.size() == 1 && text_.find('$' + name) != text_.npos) ||
-         std::regex_search(text_, std::regex("\\b(v_|variable\\s+|next\\s+)" + name + "\\b"));
+/// What of these choices -var would have to say, as `-var NAME VALUE`.
+std::vector<std::string> ScriptVariables::unmet(const Choices& choices) const {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : choices)
+    if (const auto own = certain_.find(name); own != certain_.end() && own->second != value)
+      words.push_back(fmt::format("-var {} {}", name, value));
+  return words;
 }
 
 void ScriptVariables::require_known(const std::string& name, const std::string& who) const {
-  if (!all_found_ || uses(name)) return;
-  throw_user_error({who, "variable", name,
-                    "be used by " + files::path(script_).filename().string() + " or a file that it includes",
-                    known_for(name, settable_)});
+  if (!all_found_) return;
+  const std::string script = files::path(script_).filename().string();
+  std::vector<std::string> others;
+  for (const auto& [path, text] : texts_) {
+    if (!uses(text, name)) continue;
+    for (const Choices& way : ways_.at(path)) {
+      const std::vector<std::string> words = unmet(way);
+      if (words.empty()) return;
+      add(others, fmt::format("{}", fmt::join(words, " ")));
+    }
+  }
+  if (others.empty())
+    throw_user_error({who, "variable", name, "be used by " + script + " or a file that it includes",
+                      known_for(name, settable_)});
+  throw_user_error({who, "variable", name, "be used by " + script + " as it is called here",
+                    fmt::format("it is with {}", fmt::join(others, " or "))});
 }
 
 void ScriptVariables::require_choice(const std::string& name, const std::string& value,
@@ -187,7 +230,7 @@ void ScriptVariables::require(const std::string& name, const std::string& who) c
     throw_user_error(
         {who, "variable", name, "be one that -var can set",
          fmt::format("{} sets it itself; make that line `variable {} index VALUE`", script, name)});
-  if (!uses(name))
+  if (!uses(text_, name))
     throw_user_error({who, "variable", name, "be used by " + script, known_for(name, settable_)});
 }
 

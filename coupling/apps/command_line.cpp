@@ -156,11 +156,9 @@ void require_known_variables(int argc, char** argv) {
   const char* script = script_name(argc, argv);
   if (script == nullptr || given.empty()) return;
   const ScriptVariables variables(script, "suffuse", given);
-  for (const auto& [name, value] : given) {
-    variables.require_known(name, "suffuse -var");
-    variables.require_choice(name, value, "suffuse -var");
-  }
+  for (const auto& [name, value] : given) variables.require_choice(name, value, "suffuse -var");
   variables.require_no_two_for_one(given, "suffuse -var");
+  for (const auto& [name, value] : given) variables.require_known(name, "suffuse -var");
 }
 
 }  // namespace suffuse

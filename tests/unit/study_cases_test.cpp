@@ -218,6 +218,27 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
       scratch.write("in.branch", "if \"1 > 0\" then \"include ${script_folder}/other.inc\"\n");
   CHECK_NOTHROW(ScriptVariables(in_branch, "x").require_known("unseen", "x"));
   CHECK(message_of([&] { ScriptVariables(in_branch, "x").require_known("case", "x"); }) != "");
+  // speed stands only in case_B.inc, and the script's own case is A; one that is chosen later is not known.
+  const auto with_case = [&](const std::string& value, const std::string& name) {
+    const std::map<std::string, std::string> given{{"output", scratch.path.string()}, {"case", value}};
+    return message_of([&] { ScriptVariables(script, "x", given).require_known(name, "x"); });
+  };
+  CHECK(message_of([&] { all.require_known("speed", "x"); }) ==
+        "x: variable = speed, must be used by in.scene as it is called here; it is with -var case B");
+  CHECK(with_case("A", "speed") == message_of([&] { all.require_known("speed", "x"); }));
+  CHECK(with_case("B", "speed").empty());
+  CHECK(with_case("A", "tau").empty());
+  CHECK(with_case("B", "tau").ends_with("it is with -var case A"));
+  const std::string later =
+      scratch.write("in.later",
+                    "if \"1 > 0\" then \"variable case index B\"\n"
+                    "variable case index A\ninclude ${script_folder}/case_${case}.inc\n");
+  CHECK_NOTHROW(ScriptVariables(later, "x").require_known("speed", "x"));
+  // `include ${name}` reads the file of that name, not all that lies about.
+  const std::string by_name =
+      scratch.write("in.by_name", "variable file index ${script_folder}/case_A.inc\ninclude ${file}\n");
+  CHECK_NOTHROW(ScriptVariables(by_name, "x").require_known("tau", "x"));
+  CHECK(message_of([&] { ScriptVariables(by_name, "x").require_known("speed", "x"); }) != "");
   CHECK_NOTHROW(all.require_choice("case", "B", "x"));
   CHECK_NOTHROW(all.require_choice("tau", "anything", "x"));
   CHECK(message_of([&] { all.require_choice("case", "b", "x"); }) ==
