@@ -10,6 +10,7 @@
 #include "files/project_files.h"
 #include "files/shell_word.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -39,7 +40,7 @@ int run(const std::vector<std::string>& words, bool silent) {
 
 std::string find_script(const std::string& script, const std::string& who) {
   for (const files::path& folder : project_folders("SUFFUSE_FIGURES", "figures", "analysis/figures"))
-    if (files::is_regular_file(folder / script)) return (folder / script).string();
+    if (is_file(folder / script)) return (folder / script).string();
   throw_user_error({who, "figure", script, "find the script",
                     "set SUFFUSE_FIGURES to the folder share/suffuse/figures of the installation"});
 }

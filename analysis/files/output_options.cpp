@@ -4,15 +4,15 @@
 #include <system_error>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse::analysis {
 namespace {
 
 void refuse_if_there(const std::string& who, const std::string& option, const std::string& file) {
   std::error_code ignored;  // a name that cannot be looked up is told where it is opened
-  const bool empty_folder =
-      std::filesystem::is_directory(file, ignored) && std::filesystem::is_empty(file, ignored);
-  if (!file.empty() && !empty_folder && std::filesystem::exists(file, ignored))
+  const bool empty_folder = is_folder(file) && std::filesystem::is_empty(file, ignored);
+  if (!file.empty() && !empty_folder && is_there(file))
     throw_user_error({who, option, file, "not be there yet",
                       "give another name, or --overwrite to replace what is there"});
 }

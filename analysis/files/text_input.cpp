@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -42,7 +43,7 @@ TextInput::TextInput(std::string path, std::string who)
     : path_(std::move(path)), who_(std::move(who)), source_(std::make_unique<Source>()), block_(kBlock) {
   source_->descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   std::error_code ignored;  // a pipe has no size
-  if (source_->descriptor < 0 || std::filesystem::is_directory(path_, ignored))
+  if (source_->descriptor < 0 || is_folder(path_))
     throw_user_error({who_, "file", path_, "be readable",
                       source_->descriptor < 0 ? std::strerror(errno) : "this is a folder"});
   require_an_end(path_, who_);

@@ -18,6 +18,7 @@
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/end_together.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse {
 
@@ -173,7 +174,7 @@ void Hdf5File::note_growth(bool anew) {
     drop_undo(path_);
   else
     undo_if_killed(path_);
-  const bool grows = !anew && std::filesystem::exists(path_);
+  const bool grows = !anew && is_there(path_);
   const std::uint64_t length = grows ? std::filesystem::file_size(path_) : 0;
   if (!growth.known_ || growth.length_ != length) {
     growth = {};
@@ -206,8 +207,7 @@ Hdf5File::Hdf5File(const std::string& path, Mode mode, MPI_Comm communicator, Hd
       }
     });
   }
-  std::error_code ignored;
-  if (rank == 0) there = std::filesystem::exists(path, ignored) ? 1 : 0;
+  if (rank == 0) there = is_there(path) ? 1 : 0;
   MPI_Bcast(&there, 1, MPI_INT, 0, communicator);
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "set up access to " + path);
   ensure(H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL), "use MPI for " + path);

@@ -12,7 +12,8 @@
 #include <utility>
 
 #include "suffuse/common/error.h"
-#include "suffuse/common/hdf5_earlier.h"
+#include "suffuse/common/hdf5_file.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"
 
 namespace suffuse {
@@ -129,8 +130,7 @@ void drop_undo(const std::string& path) {
 }
 
 bool has_undo(const std::string& path) {
-  std::error_code ignored;
-  return fs::exists(undo_of(path), ignored);
+  return is_there(undo_of(path));
 }
 
 void undo_if_killed(const std::string& path) {
@@ -143,7 +143,7 @@ void undo_if_killed(const std::string& path) {
         {"HDF5", "file", undo_of(path), "be a note of this version", "remove it, or the file with it"});
   const auto length = get<std::uint64_t>(note), count = get<std::uint64_t>(note);
   std::error_code ignored;
-  if (length == 0 || !fs::exists(path, ignored)) {  // nothing there before, or taken away since
+  if (length == 0 || !is_there(path)) {  // nothing there before, or taken away since
     fs::remove(path, ignored);
     drop_undo(path);
     return;

@@ -1,4 +1,5 @@
 #include "suffuse/common/script_variables.h"
+#include "suffuse/common/paths.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <regex>
 #include <sstream>
 
+#include "suffuse/common/checksum.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/near_word.h"
 
@@ -62,9 +64,7 @@ std::regex pattern_of(const std::string& name) {
 }  // namespace
 
 std::string fingerprint_of(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", checksum_of(text));
 }
 
 ScriptVariables::ScriptVariables(const std::string& script, const std::string& who,
@@ -124,7 +124,7 @@ void ScriptVariables::include(const std::string& words, bool always, const Choic
   const files::path path(words);
   const files::path folder = folder_of(path.parent_path().string());
   if (folder.string().find('$') != std::string::npos) all_found_ = false;
-  if (!files::is_directory(folder)) return;  // made during the run
+  if (!is_folder(folder)) return;  // made during the run
   std::vector<std::string> fitting;
   const std::regex pattern = pattern_of(path.filename().string());
   for (const auto& entry : files::directory_iterator(folder))

@@ -66,9 +66,9 @@ std::string folder_of_pages() {
   std::error_code ignored;
   files::path above = files::read_symlink("/proc/self/exe", ignored).parent_path();
   const files::path installed = above.parent_path() / "share/doc/suffuse/reference";
-  if (files::exists(installed / "lbm.md", ignored)) return installed.string();
+  if (is_there(installed / "lbm.md")) return installed.string();
   for (; above.has_relative_path(); above = above.parent_path())
-    if (files::exists(above / "docs/reference/lbm.md", ignored)) return (above / "docs/reference").string();
+    if (is_there(above / "docs/reference/lbm.md")) return (above / "docs/reference").string();
   return "docs/reference";
 }
 

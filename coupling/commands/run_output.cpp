@@ -13,7 +13,6 @@
 #include "styles/style_support.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
-#include "suffuse/common/hdf5_earlier.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"

@@ -15,8 +15,10 @@
 #include <vector>
 
 #include "../liggghts/restart_file.h"
+#include "suffuse/common/checksum.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/error.h"
+#include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"
 
 namespace suffuse::coupling {
@@ -36,17 +38,24 @@ std::string folder(const std::string& file, int n) {
   return fmt::format("{}.{}", file, n);
 }
 
+/// Of the name itself, not of what it links to; none where it cannot be one.
+fs::file_status own_status(const std::string& path) {
+  std::error_code ignored;
+  return fs::symlink_status(path, ignored);
+}
+
 /// 1 or 2 if FILE is a link to such a folder, whether it is there or not.
 std::optional<int> last_of(const std::string& file) {
-  if (!fs::is_symlink(fs::symlink_status(file))) return std::nullopt;
+  if (!fs::is_symlink(own_status(file))) return std::nullopt;
   const std::string target = fs::read_symlink(file).string();
   for (const int n : {1, 2})
     if (target == fs::path(folder(file, n)).filename()) return n;
   return std::nullopt;
 }
 
-bool is_there(const std::string& path) {
-  return fs::exists(fs::symlink_status(path));
+/// Is the name taken, if only by a link to nothing?
+bool is_taken(const std::string& path) {
+  return fs::exists(own_status(path));
 }
 
 std::string text_of(const fs::path& path) {
@@ -56,7 +65,7 @@ std::string text_of(const fs::path& path) {
 
 /// Is it a folder with a state or a part of one in it, and nothing else?
 bool holds_only_a_state(const fs::path& folder) {
-  if (!fs::is_directory(fs::symlink_status(folder))) return false;
+  if (!fs::is_directory(own_status(folder.string()))) return false;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
     const std::string whole = (name.extension() == ".part" ? name.stem() : name).string();
@@ -70,16 +79,16 @@ bool holds_only_a_state(const fs::path& folder) {
 void require_free(const std::string& file, const std::string& who) {
   const std::string grains = file + ".grains";
   const bool ours = last_of(file).has_value();
-  if ((is_there(file) && !ours) || (is_there(grains) && !fs::is_symlink(fs::symlink_status(grains))))
+  if ((is_taken(file) && !ours) || (is_taken(grains) && !fs::is_symlink(own_status(grains))))
     throw_user_error({who, "file", file, "be a name that is free, or of states that this command wrote",
                       "take another name, or move what is there away"});
   for (const std::string& part : {folder(file, 1), folder(file, 2), file + ".new"}) {
-    if (!is_there(part)) continue;
+    if (!is_taken(part)) continue;
     if (!holds_only_a_state(part))
       throw_user_error({who, "file", file,
                         "be a name of which " + part + " is free: states are written there",
                         "take another name, or move what is there away"});
-    if (!ours && part != file + ".new" && is_there((fs::path(part) / kSet).string()))
+    if (!ours && part != file + ".new" && is_taken((fs::path(part) / kSet).string()))
       throw_user_error({who, "file", file,
                         fmt::format("be the link to the states {} and {}", folder(file, 1), folder(file, 2)),
                         fmt::format("it was moved or removed: remove these folders as well, or `ln -s {} {}`",
@@ -87,7 +96,7 @@ void require_free(const std::string& file, const std::string& who) {
   }
   const fs::path place = fs::path(file).parent_path();
   if (const std::string at = place.empty() ? "." : place.string();
-      !fs::is_directory(at) || access(at.c_str(), W_OK) != 0)
+      !is_folder(at) || access(at.c_str(), W_OK) != 0)
     throw_user_error({who, "file", file, "be writable", "check its folder"});
 }
 
@@ -99,31 +108,12 @@ void set_link(const std::string& target, const std::string& link) {
   fs::rename(fresh, link);
 }
 
-/// FNV-1a over words of eight bytes (the last filled up with zeros), 64 bits, each followed by a shift that
-/// carries high bits down: a sum of gigabytes costs little beside their writing.
-class Sum {
- public:
-  /// All blocks but the last are whole words.
-  void add(const char* bytes, std::size_t count) {
-    for (std::size_t n = 0; n < count; n += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes + n, std::min(sizeof(word), count - n));
-      value_ = (value_ ^ word) * 1099511628211ULL;
-      value_ ^= value_ >> 32;
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 14695981039346656037ULL;
-};
-
 std::uint64_t sum_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<char> block(1 << 20);
-  Sum sum;
+  Checksum sum;
   while (file.read(block.data(), static_cast<std::streamsize>(block.size())) || file.gcount() > 0)
-    sum.add(block.data(), static_cast<std::size_t>(file.gcount()));
+    sum.add_block(block.data(), static_cast<std::size_t>(file.gcount()));
   return sum.value();
 }
 
@@ -137,7 +127,7 @@ std::string contents(const fs::path& set) {
 }
 
 void require_whole(const std::string& who, const std::string& file, const fs::path& set) {
-  const bool there = fs::is_regular_file(set / kGrains) && fs::is_regular_file(set / kSet);
+  const bool there = is_file(set / kGrains) && is_file(set / kSet);
   const std::string said = there ? text_of(set / kSet) : "";
   if (there && said == contents(set)) return;
   if (said.starts_with(kAnyVersion) && !said.starts_with(kVersion))
@@ -177,7 +167,7 @@ void finish_set(const std::string& file, const std::string& who, MPI_Comm commun
     fs::remove_all(next);
     fs::rename(fresh, next);
     set_link(target, file);
-    if (const std::string grains = file + ".grains"; !is_there(grains))
+    if (const std::string grains = file + ".grains"; !is_taken(grains))
       set_link((fs::path(file).filename() / kGrains).string(), grains);
     const fs::path place = fs::path(file).parent_path();
     wait_for_disk(place.empty() ? "." : place.string(), who);
@@ -185,14 +175,14 @@ void finish_set(const std::string& file, const std::string& who, MPI_Comm commun
 }
 
 std::string fluid_of_set(const std::string& file) {
-  if (fs::is_directory(file)) {
+  if (is_folder(file)) {
     require_whole("lbm restart read", file, file);
     if (!is_there((fs::path(file) / kFluid).string()))
       throw_user_error({"lbm restart read", "file", file, "have water in it",
                         "it was saved by `restart_set` of a dry scene; leave the line out"});
     return (fs::path(file) / kFluid).string();
   }
-  if (!fs::is_regular_file(file))
+  if (!is_file(file))
     throw_user_error(
         {"lbm restart read", "file", file, "be a state that `lbm restart write` saved", "check the path"});
   return file;
@@ -201,8 +191,8 @@ std::string fluid_of_set(const std::string& file) {
 void require_whole_restart_file(const std::string& file) {
   std::error_code ignored;
   const fs::path real = fs::canonical(file, ignored);
-  if (ignored || !fs::is_regular_file(real)) return;  // LIGGGHTS says that it is not there
-  if (real.filename() == kGrains && fs::exists(real.parent_path() / kSet)) {
+  if (ignored || !is_file(real)) return;  // LIGGGHTS says that it is not there
+  if (real.filename() == kGrains && is_there(real.parent_path() / kSet)) {
     require_whole("read_restart", file, real.parent_path());
     return;
   }

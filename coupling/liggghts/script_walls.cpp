@@ -14,6 +14,7 @@
 #include "lammps.h"
 #include "modify.h"
 #include "primitive_wall.h"
+#include "suffuse/common/checksum.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
 #include "tri_mesh.h"
@@ -142,15 +143,15 @@ ScriptWall mesh_wall(LAMMPS* lmp, FixWallGran& fix, FixMeshSurface& mesh, const 
   Vec3 sum = Vec3::Zero(), low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
   std::uint64_t print = 0;  // of the corners, in whatever order the triangles come
   for (auto& triangle : shape.triangles) {
-    std::uint64_t one = 14695981039346656037ULL;  // FNV-1a over the coordinates
+    Checksum one;
     for (Vec3& corner : triangle) {
-      for (const double x : corner) one = (one ^ std::bit_cast<std::uint64_t>(x + 0.)) * 1099511628211ULL;
+      for (const double x : corner) one.add_word(std::bit_cast<std::uint64_t>(x + 0.));
       sum += corner;
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
       corner = in_cells(corner, origin, spacing);
     }
-    print += one ^ (one >> 32);
+    print += one.value() ^ (one.value() >> 32);
   }
   wall.geometry = count_text(static_cast<std::int64_t>(shape.triangles.size()), "triangle");
   if (!shape.triangles.empty())

@@ -13,7 +13,6 @@
 #include "suffuse/common/command_line_help.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
-#include "suffuse/common/hdf5_earlier.h"
 #include "suffuse/common/hdf5_file.h"
 #include "suffuse/common/progress.h"
 #include "suffuse/common/provenance.h"

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "suffuse/common/checksum.h"
 #include "suffuse/common/error.h"
 
 namespace suffuse {
@@ -20,14 +21,6 @@ struct Head {
   std::int64_t version = 0, characters = 0, values = 0;
   std::uint64_t sum = 0;
 };
-
-/// FNV-1a, 64 bits.
-std::uint64_t sum_of(const char* bytes, std::size_t count) {
-  std::uint64_t sum = 14695981039346656037ULL;
-  for (std::size_t n = 0; n < count; ++n)
-    sum = (sum ^ static_cast<unsigned char>(bytes[n])) * 1099511628211ULL;
-  return sum;
-}
 
 std::string body_of(const RestartRecord& record) {
   std::string body = record.text;
@@ -50,7 +43,7 @@ std::string bytes_of(const RestartRecord& record) {
   head.version = record.version;
   head.characters = static_cast<std::int64_t>(record.text.size());
   head.values = static_cast<std::int64_t>(record.values.size());
-  head.sum = sum_of(body.data(), body.size());
+  head.sum = checksum_of(body);
   std::string bytes(sizeof(head), 0);
   std::memcpy(bytes.data(), &head, sizeof(head));
   return bytes + body;
@@ -89,7 +82,8 @@ RestartRecord read_record(const char* buffer, int version, std::size_t values, c
   record.text.assign(body, static_cast<std::size_t>(head.characters));
   record.values.resize(values);
   std::memcpy(record.values.data(), body + head.characters, values * sizeof(double));
-  if (sum_of(body, record.text.size() + values * sizeof(double)) != head.sum) refuse(who, "damaged", version);
+  if (checksum_of({body, record.text.size() + values * sizeof(double)}) != head.sum)
+    refuse(who, "damaged", version);
   return record;
 }
 

@@ -36,7 +36,7 @@ std::string find_program(const std::string& given) {
     return files::absolute(given).string();
   }
   const files::path beside = analysis::program_folder() / "suffuse";  // without /proc, PATH must do
-  return files::exists(beside) ? beside.string() : "suffuse";
+  return is_there(beside) ? beside.string() : "suffuse";
 }
 
 int runs_at_once(const Study& study, const StudyRunSettings& settings) {
@@ -145,7 +145,7 @@ class Runner {
   }
 
   void make_folders() {
-    if (!settings_.resume && files::exists(out_ / "runs") && !files::is_empty(out_ / "runs"))
+    if (!settings_.resume && is_there(out_ / "runs") && !files::is_empty(out_ / "runs"))
       throw_user_error(
           {kWho, "--out", settings_.out, "have no runs yet", "give --resume to go on, or another folder"});
     std::error_code problem;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ class Hdf5Growth {
 
 /// Is the file the one that this Hdf5Growth left, with what was written then and no more? Collective.
 bool is_as_left(const std::string& path, const Hdf5Growth& growth, MPI_Comm communicator);
+
+/// keep_earlier (safe_file.h) of a file that may have grown state by state: what a killed writer left half
+/// written in it is taken back before. On one rank.
+std::optional<std::string> keep_earlier_hdf5(const std::string& path, const std::string& who);
 
 /// Removes from a file that grows, if there is one, the groups under its root whose names begin with `prefix`
 /// and are not less than `first`. In an opening of its own: what HDF5 would put in their place then could be
