@@ -1,5 +1,6 @@
 // What the ways to compute the water cost and how far they err: drag of packings, force on each grain, core
 // seconds. Rows of CSV on stdout; docs/results/price_of_methods.md reads them.
+#include <fmt/format.h>
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
@@ -139,13 +140,25 @@ double reference_of(const std::string& file, const std::string& packing) {
   throw std::runtime_error("no " + packing + " in " + file);
 }
 
-void compare(const std::string& name, const std::string& references, double finest_diameter) {
+/// What a program of others needs to compute the same (benchmarks/pore_network.py): a row a grain.
+void write_grains(std::ofstream& file, const std::string& name, const Case& c, double reference,
+                  const Result& finest) {
+  for (std::size_t n = 0; n < c.packing.radii.size(); ++n) {
+    const Vec3& at = c.packing.centres[n];
+    file << fmt::format("{},{:.6g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", name, reference, at[0], at[1],
+                        at[2], c.packing.radii[n], finest.forces[n]);
+  }
+}
+
+void compare(const std::string& name, const std::string& references, double finest_diameter,
+             std::ofstream& grains) {
   Case c;
   c.packing = make_packing(name);
   c.phi = volume_of(c.packing.radii);
   c.diameter = sauter_diameter(c.packing.radii);
   const double reference = reference_of(references, name);
   const Result finest = resolved(c, finest_diameter, false);
+  write_grains(grains, name, c, reference, finest);
   for (const DragLawEntry& law : drag_laws())
     print(name, "formula_" + law.word, formula(c, law.law), reference, finest);
   for (const int cells : {1, 2})
@@ -166,17 +179,20 @@ int main(int argc, char** argv) {
   CLI::App app(
       "Errors of drag, of the force on each grain, and core seconds of every way to compute the water");
   std::vector<std::string> packings{"random:0.58:64:21", "appendix_c:0.6:11"};
-  std::string references = "tests/data/packing_drags.csv";
+  std::string references = "tests/data/packing_drags.csv", grains;
   double finest = 14;
   app.add_option("--packings", packings, "names of packing_drags.csv")->delimiter(' ');
   app.add_option("--references", references, "converged drags");
+  app.add_option("--grains", grains, "file to write: the packings' grains and the forces on them");
   app.add_option("--finest", finest, "cells a diameter of the run that gives the forces to compare with");
   CLI11_PARSE(app, argc, argv);
   MPI_Init(&argc, &argv);
   std::printf(
       "packing,method,drag_K,k_error_percent,force_error_rms_percent,force_ratio_10,force_ratio_50,"
       "force_ratio_90,core_seconds\n");
-  for (const std::string& name : packings) compare(name, references, finest);
+  std::ofstream file(grains.empty() ? "/dev/null" : grains);
+  file << "packing,drag_K,x,y,z,radius,force_share\n";  // box lengths
+  for (const std::string& name : packings) compare(name, references, finest, file);
   MPI_Finalize();
   return 0;
 }

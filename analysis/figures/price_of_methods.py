@@ -18,7 +18,7 @@ ERRORS = {"k_error_percent": "error of k (%)", "force_error_rms_percent": "error
 
 def kind_of(method):
     return "averaged" if method.startswith("averaged") else "formula" if method.startswith("formula") else \
-        "resolved, float" if method.endswith("float") else "resolved, double"
+        "pore network (YADE)" if method.startswith("pore_network") else "resolved, float" if method.endswith("float") else "resolved, double"
 
 
 def label_of(method):
@@ -42,7 +42,7 @@ def draw(rows, options):
 
     packings = list(dict.fromkeys(row["packing"] for row in rows))
     figure, panels = pyplot.subplots(2, len(packings), sharex=True, sharey="row", squeeze=False, figsize=(style.width_of(options), 5.0))
-    looks = {"formula": ("x", "vermilion"), "averaged": ("^", "purple"), "resolved, double": ("o", "blue"), "resolved, float": ("s", "sky")}
+    looks = {"formula": ("x", "vermilion"), "averaged": ("^", "purple"), "pore network (YADE)": ("D", "green"), "resolved, double": ("o", "blue"), "resolved, float": ("s", "sky")}
     for column, packing in enumerate(packings):
         of_it = [row for row in rows if row["packing"] == packing]
         for line, (quantity, title) in enumerate(ERRORS.items()):

@@ -11,6 +11,8 @@
 namespace suffuse {
 namespace {
 
+/// Rows of this case hold for every other that has none of its own for the quantity.
+constexpr std::string_view kAnyCase = "any";
 constexpr std::string_view kHeader = "case,quantity,value,tolerance,unit,source";
 
 /// Splits at commas outside double quotes; quotes are dropped.
@@ -68,9 +70,13 @@ std::string comparison_table(const std::vector<MeasuredValue>& measured,
   std::string table =
       fmt::format(row, "quantity", "measured", "expected", "allowed", "ok", "diff %", "source");
   for (const MeasuredValue& m : measured) {
-    const auto match = std::find_if(expected.begin(), expected.end(), [&](const ExpectedValue& e) {
-      return e.case_name == case_name && e.quantity == m.quantity;
-    });
+    const auto row_of = [&](std::string_view name) {
+      return std::find_if(expected.begin(), expected.end(), [&](const ExpectedValue& e) {
+        return e.case_name == name && e.quantity == m.quantity;
+      });
+    };
+    auto match = row_of(case_name);
+    if (match == expected.end()) match = row_of(kAnyCase);
     if (match == expected.end()) {
       table += fmt::format(row, m.quantity, number(m.value), "-", "-", "-", "-", "");
       continue;

@@ -28,7 +28,8 @@ struct MeasuredValue {
 };
 
 /// A table with one row for each measured quantity: measured, expected, the difference that is allowed and
-/// whether it is kept, difference in %, source. Quantities that the file does not give for the case appear
+/// whether it is kept, difference in %, source. What the file gives for the case `any` holds for every case
+/// for which it does not give the quantity. Quantities that the file does not give for the case appear
 /// without an expectation, and those without a tolerance are not judged.
 std::string comparison_table(const std::vector<MeasuredValue>& measured,
                              const std::vector<ExpectedValue>& expected, std::string_view case_name);

@@ -45,3 +45,10 @@ TEST_CASE("the comparison says which values keep their tolerance") {
   CHECK(said(0.19, 0.009) == std::pair(false, true));
   CHECK(said(0.19, 0) == std::pair(false, false));
 }
+
+TEST_CASE("what is expected of any case holds where a case has nothing of its own") {
+  const std::vector<ExpectedValue> expected{{"any", "porosity", 0.3, 0, "-", "of any"},
+                                            {"A", "porosity", 0.2, 0, "-", "of A"}};
+  CHECK(comparison_table({{"porosity", 0.2}}, expected, "A").find("of A") != std::string::npos);
+  CHECK(comparison_table({{"porosity", 0.2}}, expected, "B").find("of any") != std::string::npos);
+}
