@@ -135,6 +135,8 @@ TEST_CASE("beta is undefined in an isotropic state and the fines' share of the d
         .beta;
   };
   CHECK_FALSE(beta(Vec3(1, 1, 1)).has_value());
+  CHECK_FALSE(beta(Vec3(1, 1, 1.005)).has_value());  // noise of a state at rest
+  CHECK(beta(Vec3(1, 1, 1.02)).has_value());
   REQUIRE(beta(Vec3(1, 1, 2)).has_value());
   CHECK(*beta(Vec3(1, 1, 2)) == Approx(fine / (coarse + fine)));
 }

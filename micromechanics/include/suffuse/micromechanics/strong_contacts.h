@@ -32,7 +32,8 @@ StrongSums strong_sums(const Packing& packing, double threshold);
 struct StrongContacts {
   double share = 0;              ///< strong contacts over all contacts
   double mean_stress_share = 0;  ///< share of p' that they carry; 0 where p' = 0
-  double deviator_share = 0;  ///< share of σ_aa − (σ_bb + σ_cc)/2, a the axis; 0 where that is rounding
+  double deviator_share =
+      0;  ///< share of σ_aa − (σ_bb + σ_cc)/2, a the axis; 0 below kIsotropyTolerance of p'
 };
 
 StrongContacts strong_contacts(const StrongSums& sums, int axis);
