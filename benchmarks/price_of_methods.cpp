@@ -191,6 +191,7 @@ int main(int argc, char** argv) {
       "packing,method,drag_K,k_error_percent,force_error_rms_percent,force_ratio_10,force_ratio_50,"
       "force_ratio_90,core_seconds\n");
   std::ofstream file(grains.empty() ? "/dev/null" : grains);
+  if (!file) throw std::runtime_error("cannot write " + grains);
   file << "packing,drag_K,x,y,z,radius,force_share\n";  // box lengths
   for (const std::string& name : packings) compare(name, references, finest, file);
   MPI_Finalize();

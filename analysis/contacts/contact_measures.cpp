@@ -134,6 +134,16 @@ void add_fabric(Record& record, const Packing& packing) {
                {"rose_yz_direction_rad", yz.direction}});
 }
 
+/// A region's grains may hang on rattlers outside of it: all are looked at.
+std::vector<bool> bearing_grains(const Snapshot& snapshot, int minimum) {
+  if (!snapshot.whole) return load_bearing(snapshot.packing, minimum);
+  const std::vector<bool> all = load_bearing(snapshot.whole->packing, minimum);
+  std::vector<bool> bearing;
+  for (std::size_t g = 0; g < all.size(); ++g)
+    if (snapshot.whole->is_in_part[g]) bearing.push_back(all[g]);
+  return bearing;
+}
+
 }  // namespace
 
 double sliding_tolerance(const MeasureSettings& settings, const Snapshot& snapshot) {
@@ -158,7 +168,7 @@ Record ContactMeasurer::measure(const Snapshot& snapshot) {
   add_counts(record, packing, counts, split);
   add_coordination(record, z, split);
   const Rattlers loose =
-      rattlers(packing, load_bearing(packing, settings_.rattler_contacts), {settings_.split.value_or(0)});
+      rattlers(packing, bearing_grains(snapshot, settings_.rattler_contacts), {settings_.split.value_or(0)});
   add(record, {{"rattler_share", loose.share},
                {"rattler_fines_share", only_if(split, loose.fines_share)},
                {"rattler_solid_share", loose.solid_share}});

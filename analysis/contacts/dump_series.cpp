@@ -128,7 +128,7 @@ bool DumpSeries::next(Snapshot& snapshot) {
   if (const std::string problem = problem_of_contacts(snapshot.packing, period_of(contacts_.header()));
       !problem.empty())
     contacts_.file().complain(fmt::format("at step {} {}", snapshot.step, problem), "the file is damaged");
-  sample_.restrict_to_region(snapshot.packing);
+  sample_.restrict_to_region(snapshot);
   return true;
 }
 

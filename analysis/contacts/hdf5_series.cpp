@@ -148,7 +148,7 @@ bool Hdf5Series::next(Snapshot& snapshot) {
   read_contacts(snapshot.packing, period);
   if (const std::string wrong = problem_of_contacts(snapshot.packing, period); !wrong.empty())
     complain(wrong, "the file is damaged");
-  sample_.restrict_to_region(snapshot.packing);
+  sample_.restrict_to_region(snapshot);
   return true;
 }
 

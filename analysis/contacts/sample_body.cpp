@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/sphere.h"
@@ -31,8 +33,10 @@ void SampleBody::set_volume(Packing& packing, const std::array<bool, 3>& periodi
       own[0], own[1], own[2], filled[0], filled[1], filled[2]);
 }
 
-void SampleBody::restrict_to_region(Packing& packing) const {
+void SampleBody::restrict_to_region(Snapshot& snapshot) const {
+  snapshot.whole.reset();
   if (!settings_->region) return;
+  Packing& packing = snapshot.packing;
   Box region = *settings_->region;
   for (int axis = 0; axis < 3; ++axis) {
     if (!periodic_[static_cast<std::size_t>(axis)]) continue;
@@ -42,7 +46,7 @@ void SampleBody::restrict_to_region(Packing& packing) const {
   if ((region.high - region.low).minCoeff() <= 0)
     throw_user_error({settings_->who, "--region", "outside the periodic box", "be in it", ""});
   const Vec3 length = packing.box_high - packing.box_low;
-  packing = micromechanics::part_inside(packing, [&](const Vec3& centre) {
+  const auto is_inside = [&](const Vec3& centre) {
     for (int axis = 0; axis < 3; ++axis) {
       double at = centre[axis];
       if (periodic_[static_cast<std::size_t>(axis)])
@@ -50,7 +54,12 @@ void SampleBody::restrict_to_region(Packing& packing) const {
       if (at < region.low[axis] || at >= region.high[axis]) return false;
     }
     return true;
-  });
+  };
+  WholePacking whole{std::move(packing), {}};
+  packing = micromechanics::part_inside(whole.packing, is_inside);
+  for (const micromechanics::Grain& grain : whole.packing.grains)
+    whole.is_in_part.push_back(is_inside(grain.position));
+  snapshot.whole = std::move(whole);
   if (packing.grains.empty())
     throw_user_error({settings_->who, "--region", "no grain's centre", "lie in it", "lengths are in metres"});
   packing.volume = micromechanics::volume_of(region);

@@ -17,9 +17,10 @@ class SampleBody {
   /// The volume of the sample from its grains and its box, where the box is known; of all grains' bed, until
   /// restrict_to_region().
   void set_volume(micromechanics::Packing& packing, const std::array<bool, 3>& periodic);
-  /// With a region: leaves grains outside of it out (micromechanics::part_inside) and sets its volume.
+  /// With a region: leaves grains outside of it out (micromechanics::part_inside), sets its volume and keeps
+  /// the whole beside it.
   /// Throws UserError for a region without grains or less than those in it.
-  void restrict_to_region(micromechanics::Packing& packing) const;
+  void restrict_to_region(Snapshot& snapshot) const;
   /// That a box was taken that is another body than the bed; empty if none was.
   const std::string& note() const { return note_; }
 

@@ -12,11 +12,19 @@
 
 namespace suffuse::analysis {
 
-/// Grains and contacts of one step of a run. All grains are owned, all contacts counted.
+/// What a region's sample is a part of.
+struct WholePacking {
+  micromechanics::Packing packing;
+  std::vector<bool> is_in_part;  ///< of each grain; those of the part are in the same order
+};
+
+/// Grains and contacts of one step of a run. All grains are owned; all contacts count whole but those with a
+/// grain outside of a region (micromechanics::part_inside).
 struct Snapshot {
   std::int64_t step = 0;
   std::optional<double> time;  ///< s, where the file tells it
   micromechanics::Packing packing;
+  std::optional<WholePacking> whole;  ///< of which `packing` is the part in the region, if one is given
   bool six_digits = false;  ///< from text of six digits, LIGGGHTS's default, so that forces are rounded
 };
 

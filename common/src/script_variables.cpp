@@ -1,11 +1,9 @@
 #include "suffuse/common/script_variables.h"
-#include "suffuse/common/paths.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,6 +13,7 @@
 #include "suffuse/common/checksum.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/near_word.h"
+#include "suffuse/common/paths.h"
 
 namespace suffuse {
 namespace {
@@ -47,6 +46,10 @@ bool uses(const std::string& text, const std::string& name) {
          std::regex_search(text, std::regex("\\b(v_|variable\\s+|next\\s+)" + name + "\\b"));
 }
 
+std::string path_of(const std::string& file) {
+  return files::path(file).lexically_normal().string();
+}
+
 /// A file's name with variables in it as a pattern: each stands for any text.
 std::regex pattern_of(const std::string& name) {
   static const std::regex variable(R"(\$\{[^}]*\}|\$[A-Za-z])");
@@ -71,13 +74,15 @@ ScriptVariables::ScriptVariables(const std::string& script, const std::string& w
                                  const std::map<std::string, std::string>& given)
     : script_(script), folder_(files::path(script).parent_path().string()), values_(given), certain_(given) {
   values_.insert_or_assign("script_folder", folder_.empty() ? "." : folder_);
+  for (const auto& [name, value] : given) offered_[name] = {value};
   read(script, {});
   if (texts_.empty())
     throw_user_error({who, "script", script, "be readable", "check the path and the permissions"});
+  note_head();
 }
 
 void ScriptVariables::read(const std::string& file, const Choices& under) {
-  const std::string path = files::path(file).lexically_normal().string();
+  const std::string path = path_of(file);
   std::vector<Choices>& ways = ways_[path];
   const auto leads_here = [&](const Choices& way) {
     return std::includes(under.begin(), under.end(), way.begin(), way.end());
@@ -93,20 +98,50 @@ void ScriptVariables::read(const std::string& file, const Choices& under) {
   static const std::regex other_file(R"(\b(?:include|jump)\s+["']?([^\s"']+))");  // in `if ... then` too
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    note_definition(line.substr(0, line.find('#')), under);
+    note_definition(line.substr(0, line.find('#')));
     for (std::sregex_iterator found(line.begin(), line.end(), other_file), end; found != end; ++found)
       if ((*found)[1] != "SELF") include((*found)[1], line.starts_with("include"), under);
   }
 }
 
-void ScriptVariables::note_definition(const std::string& line, const Choices& under) {
+/// Values that hold wherever the script branches later: definitions at its head, of one plain word.
+void ScriptVariables::note_head() {
+  static const std::regex definition(R"(\s*variable\s+(\w+)\s+(\w+)\s+(.*?)\s*)"), word(R"([^\s$"'&]+)");
+  std::vector<std::string> seen;
+  std::istringstream lines(texts_[path_of(script_)]);
+  for (std::string line; std::getline(lines, line);) {
+    line = line.substr(0, line.find('#'));
+    std::smatch found;
+    if (!std::regex_match(line, found, definition)) {
+      if (line.find_first_not_of(" \t\r") != line.npos) break;
+      continue;
+    }
+    const std::string value = found[3];
+    if (!contains(seen, found[1]) && found[2] == "index" && std::regex_match(value, word))
+      certain_.emplace(found[1], value);
+    add(seen, found[1]);
+  }
+  std::erase_if(certain_, [&](const auto& one) { return changes(one.first); });
+}
+
+/// Does some line take the variable to its next value, or away?
+bool ScriptVariables::changes(const std::string& name) const {
+  return std::regex_search(
+      text_, std::regex("\\bnext\\s[^\n]*\\b" + name + "\\b|\\bvariable\\s+" + name + "\\s+delete\\b"));
+}
+
+void ScriptVariables::note_definition(const std::string& line) {
   static const std::regex definition(R"(\bvariable\s+(\w+)\s+(\w+)(?:\s+([^\s"']+))?)");
   std::smatch found;
   if (!std::regex_search(line, found, definition)) return;
   const bool kept = std::find(std::begin(kKept), std::end(kKept), found[2].str()) != std::end(kKept);
   if (kept && found[3].matched) values_.emplace(found[1], found[3]);
-  if (!under.empty() || !line.starts_with("variable")) add(doubtful_, found[1]);
-  if (kept && !contains(doubtful_, found[1])) certain_.emplace(found[1], found[3]);
+  if (kept && !certain_.contains(found[1])) {
+    std::string values = line.substr(static_cast<std::size_t>(found.position(2) + found.length(2)));
+    std::erase_if(values, [](char c) { return c == '"' || c == '\''; });
+    std::istringstream words(values);
+    for (std::string word; words >> word;) add(offered_[found[1]], word);
+  }
   if (kept || found[2] != "delete") add(kept ? settable_ : set_by_script_, found[1]);
 }
 
@@ -114,11 +149,14 @@ void ScriptVariables::include(const std::string& words, bool always, const Choic
   // A variable alone is a file's whole name with its folder.
   static const std::regex alone(R"(\$\{(\w+)\})");
   if (std::regex_match(words, alone)) {
-    const auto value = values_.find(words.substr(2, words.size() - 3));
-    if (value == values_.end() || std::regex_match(value->second, alone))
-      all_found_ = false;
-    else
-      include(value->second, false, under);
+    const std::vector<std::string> names = offered_[words.substr(2, words.size() - 3)];
+    if (names.empty()) all_found_ = false;
+    for (const std::string& name : names) {
+      if (name == "&" || std::regex_match(name, alone))
+        all_found_ = false;
+      else
+        include(name, false, under);
+    }
     return;
   }
   const files::path path(words);
@@ -171,23 +209,35 @@ std::vector<std::string> ScriptVariables::unmet(const Choices& choices) const {
   return words;
 }
 
-void ScriptVariables::require_known(const std::string& name, const std::string& who) const {
-  if (!all_found_) return;
-  const std::string script = files::path(script_).filename().string();
-  std::vector<std::string> others;
+/// As `-var NAME VALUE`; the first is empty if the script reads the name as it is called.
+std::vector<std::string> ScriptVariables::choices_that_read(const std::string& name) const {
+  std::vector<std::string> choices;
   for (const auto& [path, text] : texts_) {
     if (!uses(text, name)) continue;
     for (const Choices& way : ways_.at(path)) {
       const std::vector<std::string> words = unmet(way);
-      if (words.empty()) return;
-      add(others, fmt::format("{}", fmt::join(words, " ")));
+      if (words.empty()) return {""};
+      add(choices, fmt::format("{}", fmt::join(words, " ")));
     }
   }
-  if (others.empty())
+  return choices;
+}
+
+bool ScriptVariables::reads(const std::string& name) const {
+  if (!all_found_) return true;
+  const std::vector<std::string> choices = choices_that_read(name);
+  return !choices.empty() && choices.front().empty();
+}
+
+void ScriptVariables::require_known(const std::string& name, const std::string& who) const {
+  if (reads(name)) return;
+  const std::string script = files::path(script_).filename().string();
+  const std::vector<std::string> choices = choices_that_read(name);
+  if (choices.empty())
     throw_user_error({who, "variable", name, "be used by " + script + " or a file that it includes",
                       known_for(name, settable_)});
   throw_user_error({who, "variable", name, "be used by " + script + " as it is called here",
-                    fmt::format("it is with {}", fmt::join(others, " or "))});
+                    fmt::format("it is with {}", fmt::join(choices, " or "))});
 }
 
 void ScriptVariables::require_choice(const std::string& name, const std::string& value,

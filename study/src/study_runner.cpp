@@ -81,15 +81,15 @@ class Runner {
 
  private:
   void check_variables() {
-    const ScriptVariables variables(study_.script, study_.file);
+    const ScriptVariables variables(study_.script, study_.file, {study_.fixed.begin(), study_.fixed.end()});
     for (const std::string& name : swept_names(study_)) variables.require(name, study_.file);
     for (const auto& [name, value] : study_.fixed) variables.require(name, study_.file);
     script_ = variables.fingerprint();
     if (!study_.preparation) return;
-    const ScriptVariables before(study_.preparation->script, study_.file);
-    for (const auto& [name, value] : study_.preparation->variables)
-      before.require(name, study_.file + ", [prepare]");
-    prepared_ = before.fingerprint() + variables_text(study_.preparation->variables);
+    const VariableValues& given = study_.preparation->variables;
+    const ScriptVariables before(study_.preparation->script, study_.file, {given.begin(), given.end()});
+    for (const auto& [name, value] : given) before.require(name, study_.file + ", [prepare]");
+    prepared_ = before.fingerprint() + variables_text(given);
   }
 
   std::string folder_of(const StudyCase& run) const { return (out_ / "runs" / run.name).string(); }
@@ -97,8 +97,12 @@ class Runner {
   std::vector<std::string> command(const std::string& script, const VariableValues& variables) const {
     std::vector<std::string> words = first_words_;
     words.insert(words.end(), {"-in", script});
+    // A variable of another choice would change nothing, and be refused.
+    const ScriptVariables read(script, study_.file, {variables.begin(), variables.end()});
     for (const auto& [name, value] : variables)
-      words.insert(words.end(), {"-var", name, with_value(value, "{prepare}", (out_ / "prepare").string())});
+      if (read.reads(name))
+        words.insert(words.end(),
+                     {"-var", name, with_value(value, "{prepare}", (out_ / "prepare").string())});
     return words;
   }
 

@@ -148,6 +148,32 @@ TEST_CASE("a simple cubic packing through dumps: Z = 6, p' = F/(2r)², a third o
   CHECK_FALSE(value_of(r, "alpha_pair_halves").has_value());
 }
 
+TEST_CASE("a region: the whole's coordination and stress, and rattlers that hang on others outside") {
+  const Scratch scratch;
+  const double spacing = 2 * kRadius, length = kSide * spacing;
+  ReadSettings settings;
+  settings.region = micromechanics::Box{Vec3(spacing, 0, 0), Vec3(2 * spacing, length, length)};
+  Packing packing = sample();
+  const auto value = [&](const char* name) {
+    const std::vector<std::string> paths{scratch.write("g.dump", grains_text(packing, 7)),
+                                         scratch.write("c.dump", contacts_text(packing, 7))};
+    return value_of(record_of(paths, settings), name).value();
+  };
+  CHECK(value("grains") == kSide * kSide);
+  CHECK(value("coordination_number") == Approx(6));
+  CHECK(value("porosity") == Approx(1 - M_PI / 6).epsilon(1e-12));
+  CHECK(value("mean_stress_pa") == Approx(kForce / (4 * kRadius * kRadius)).epsilon(1e-12));
+  CHECK(value("rattler_share") == 0);
+  // Rows along x alone, open at both ends: each grain in turn loses its last support.
+  std::erase_if(packing.contacts, [&](const Contact& contact) {
+    const double from = first_grain(packing, contact).position.x();
+    return std::abs(contact.branch.x()) < kRadius || from - contact.branch.x() < 0 ||
+           from - contact.branch.x() > length;
+  });
+  REQUIRE(packing.contacts.size() == static_cast<std::size_t>((kSide - 1) * kSide * kSide));
+  CHECK(value("rattler_share") == 1);
+}
+
 TEST_CASE("columns are found by name, by the words of the compute, and by a name of one's own") {
   const Scratch scratch;
   const Packing packing = sample();

@@ -14,6 +14,7 @@
 #include "suffuse/micromechanics/directional_distribution.h"
 #include "suffuse/micromechanics/fabric.h"
 #include "suffuse/micromechanics/force_distribution.h"
+#include "suffuse/micromechanics/layers.h"
 #include "suffuse/micromechanics/load_shares.h"
 #include "suffuse/micromechanics/sample_extent.h"
 #include "suffuse/micromechanics/slipping.h"
@@ -68,6 +69,14 @@ auto in_eighth(int eighth) {
   };
 }
 
+LayerGrid three_layers() {
+  LayerGrid grid;
+  grid.layers = 3;
+  grid.column = {Vec3::Zero(), Vec3::Constant(kSide * kSpacing)};
+  grid.period = grid.column.high;
+  return grid;
+}
+
 /// What is added up over contacts, whole or as one rank's or one part's share.
 std::vector<double> sums_of(const Packing& packing) {
   std::vector<double> sums;
@@ -98,6 +107,11 @@ std::vector<double> sums_of(const Packing& packing) {
   const FabricSums fabric = fabric_sums(packing);
   sums.insert(sums.end(), fabric.planes[1].counts.begin(), fabric.planes[1].counts.end());
   add_matrix(fabric.normals.matrix());
+  for (const SlidingSums& layer : layer_sliding_sums(packing, three_layers(), {0.2}))
+    sums.insert(sums.end(), {layer.contacts, layer.sliding});
+  const SphericalGrid sphere(200);
+  const SphericalDistribution directions = spherical_distribution(packing, sphere);
+  sums.insert(sums.end(), directions.contacts.begin(), directions.contacts.end());
   const NormalForceSums normal = normal_force_sums(packing);
   sums.insert(sums.end(), {normal.contacts, normal.normal_force});
   return sums;
@@ -131,19 +145,27 @@ TEST_CASE("the parts of a partition add up to the whole, on any number of ranks"
   }
 }
 
-TEST_CASE("a part of a cubic array has the array's coordination, stress and fabric") {
-  const Packing whole = simple_cubic(5, 0.5, push(7));
-  Packing part = part_inside(
-      whole, [](const Vec3& centre) { return (centre.array() > 1).all() && (centre.array() < 3).all(); });
-  part.volume = 8;
-  REQUIRE(part.grains.size() == 8);
+TEST_CASE("a part of a cubic array has the array's coordination, stress, fabric and forces") {
+  // 7, 2 and 6 N along x, y and z.
+  const Packing whole = simple_cubic(
+      5, 0.5, [](const Vec3& branch) -> Vec3 { return Vec3(7, 2, 6).cwiseProduct(branch.normalized()); });
+  // A slab one grain high: without its contacts with grains outside it had none along z.
+  Packing part = part_inside(whole, [](const Vec3& centre) {
+    return (centre.array() > 1).all() && (centre.array() < 3).all() && centre[2] < 2;
+  });
+  part.volume = 4;
+  REQUIRE(part.grains.size() == 4);
   CHECK(coordination(coordination_sums(part, kSplit), part.volume).mean == Approx(6));
   const Mat3 stress = stress_times_volume(whole).matrix() / whole.volume;
   CHECK((stress_times_volume(part).matrix() / part.volume - stress).norm() < 1e-12 * stress.norm());
   CHECK((fabric_tensor(fabric_sums(part)) - Mat3::Identity() / 3).norm() < 1e-12);
-  const ForceDistribution forces = force_distribution(part, {});
-  CHECK(forces.mean_normal == Approx(7));
-  // 12 contacts within, 24 with grains outside: as pairs they are all of the part.
-  CHECK(contact_pairs(part).size() == 36);
-  CHECK(normal_force_sums(part).contacts == Approx(24));
+  const ForceDistribution forces = force_distribution(part, {}), expected = force_distribution(whole, {});
+  CHECK(forces.mean_normal == Approx(5));
+  CHECK(forces.coefficient_of_variation == Approx(expected.coefficient_of_variation));
+  CHECK(forces.tail_exponent == Approx(expected.tail_exponent));
+  for (std::size_t bin = 0; bin < expected.normal.size(); ++bin)
+    CHECK(forces.normal[bin] == Approx(expected.normal[bin]));
+  // 4 contacts within, 16 with grains outside: as pairs they are all of the part.
+  CHECK(contact_pairs(part).size() == 20);
+  CHECK(normal_force_sums(part).contacts == Approx(12));
 }

@@ -218,27 +218,48 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
       scratch.write("in.branch", "if \"1 > 0\" then \"include ${script_folder}/other.inc\"\n");
   CHECK_NOTHROW(ScriptVariables(in_branch, "x").require_known("unseen", "x"));
   CHECK(message_of([&] { ScriptVariables(in_branch, "x").require_known("case", "x"); }) != "");
-  // speed stands only in case_B.inc, and the script's own case is A; one that is chosen later is not known.
-  const auto with_case = [&](const std::string& value, const std::string& name) {
-    const std::map<std::string, std::string> given{{"output", scratch.path.string()}, {"case", value}};
-    return message_of([&] { ScriptVariables(script, "x", given).require_known(name, "x"); });
+  // speed stands only in case_B.inc, and the script's own case is A.
+  const std::string alone = scratch.write(
+      "in.alone", "# a scene\nvariable case index A  # or B\n\ninclude ${script_folder}/case_${case}.inc\n");
+  const auto of_case = [&](const std::string& value, const std::string& name) {
+    const std::map<std::string, std::string> given{{"case", value}};
+    return message_of([&] { ScriptVariables(alone, "x", given).require_known(name, "x"); });
   };
-  CHECK(message_of([&] { all.require_known("speed", "x"); }) ==
-        "x: variable = speed, must be used by in.scene as it is called here; it is with -var case B");
-  CHECK(with_case("A", "speed") == message_of([&] { all.require_known("speed", "x"); }));
-  CHECK(with_case("B", "speed").empty());
-  CHECK(with_case("A", "tau").empty());
-  CHECK(with_case("B", "tau").ends_with("it is with -var case A"));
-  const std::string later =
-      scratch.write("in.later",
-                    "if \"1 > 0\" then \"variable case index B\"\n"
-                    "variable case index A\ninclude ${script_folder}/case_${case}.inc\n");
-  CHECK_NOTHROW(ScriptVariables(later, "x").require_known("speed", "x"));
+  const std::string not_read = message_of([&] { ScriptVariables(alone, "x").require_known("speed", "x"); });
+  CHECK(not_read ==
+        "x: variable = speed, must be used by in.alone as it is called here; it is with -var case B");
+  CHECK_FALSE(ScriptVariables(alone, "x").reads("speed"));
+  CHECK(of_case("A", "speed") == not_read);
+  CHECK(of_case("B", "speed").empty());
+  CHECK(of_case("A", "tau").empty());
+  CHECK(of_case("B", "tau").ends_with("it is with -var case A"));
+  // Where the script may choose anew, each choice may be the one that is read.
+  const std::string choice = "include ${script_folder}/case_${case}.inc\n";
+  for (const std::string& open :
+       {"variable case index A B\n" + choice, "variable case index A\n" + choice + "next case\n",
+        "variable kind index B\nvariable case index ${kind}\n" + choice,
+        "variable case index &\nB\n" + choice, "variable case index \"B\"\n" + choice,
+        "variable case string B\nvariable case index A\n" + choice,
+        "variable case index A\nvariable case delete\nvariable case index B\n" + choice,
+        "if \"1 > 0\" then \"variable case index B\"\nvariable case index A\n" + choice,
+        "include ${output}/made_by_the_run.inc\nvariable case index A\n" + choice,
+        "jump SELF two\nvariable case index A\nlabel two\nvariable case index B\n" + choice}) {
+    CAPTURE(open);
+    CHECK_NOTHROW(ScriptVariables(scratch.write("in.open", open), "x").require_known("speed", "x"));
+  }
   // `include ${name}` reads the file of that name, not all that lies about.
-  const std::string by_name =
-      scratch.write("in.by_name", "variable file index ${script_folder}/case_A.inc\ninclude ${file}\n");
-  CHECK_NOTHROW(ScriptVariables(by_name, "x").require_known("tau", "x"));
-  CHECK(message_of([&] { ScriptVariables(by_name, "x").require_known("speed", "x"); }) != "");
+  const auto by_name = [&](const std::string& definition, const std::string& name) {
+    const std::string in = scratch.write("in.by_name", definition + "include ${file}\n");
+    return message_of([&] { ScriptVariables(in, "x").require_known(name, "x"); }).empty();
+  };
+  CHECK(by_name("variable file index ${script_folder}/case_A.inc\n", "tau"));
+  CHECK_FALSE(by_name("variable file index ${script_folder}/case_A.inc\n", "speed"));
+  CHECK(by_name("variable file index ${script_folder}/case_A.inc ${script_folder}/case_B.inc\n", "speed"));
+  CHECK(
+      by_name("if \"1 > 0\" then \"variable file index ${script_folder}/case_B.inc\"\n"
+              "variable file index ${script_folder}/case_A.inc\n",
+              "speed"));
+  CHECK(by_name("variable file string somewhere\n", "speed"));  // not known
   CHECK_NOTHROW(all.require_choice("case", "B", "x"));
   CHECK_NOTHROW(all.require_choice("tau", "anything", "x"));
   CHECK(message_of([&] { all.require_choice("case", "b", "x"); }) ==

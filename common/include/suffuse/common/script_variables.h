@@ -19,10 +19,13 @@ class ScriptVariables {
   /// Throws UserError where the script does not use the variable, or sets it itself in a way that -var cannot
   /// change (variable NAME equal ...).
   void require(const std::string& name, const std::string& who) const;
-  /// Throws UserError where the variable's name stands nowhere, neither used nor set, although all that is
-  /// included was found: -var would change nothing. Names the nearest of those that -var can set. So too
-  /// where it stands only in files of another choice (scale_own.inc of scale_${scale}.inc, with scale =
-  /// quick); then that is named.
+  /// May -var NAME change anything? No, where all that is included was found and the name stands nowhere,
+  /// neither used nor set, or only in files of another choice (scale_own.inc of scale_${scale}.inc, with
+  /// scale = quick by -var, or by a line `variable scale index quick` at the head of the script, before
+  /// anything but such lines and comments).
+  bool reads(const std::string& name) const;
+  /// Throws UserError where it may not. Names the choice that reads it, or the nearest of those that -var can
+  /// set.
   void require_known(const std::string& name, const std::string& who) const;
   /// Throws UserError where the variable's value is part of the name of an included file of the script's own
   /// folders (`include ${script_folder}/scale_${scale}.inc`) and no such file is there, nor made by the
@@ -40,18 +43,22 @@ class ScriptVariables {
   using Choices = std::map<std::string, std::string>;
 
   void read(const std::string& file, const Choices& under);
-  void note_definition(const std::string& line, const Choices& under);
+  void note_head();
+  void note_definition(const std::string& line);
   void include(const std::string& words, bool always, const Choices& under);
   std::string folder_of(const std::string& name) const;
   std::vector<std::string> unmet(const Choices& choices) const;
+  bool changes(const std::string& name) const;
+  std::vector<std::string> choices_that_read(const std::string& name) const;
 
   std::string script_, folder_, text_;
   std::vector<std::string> settable_, set_by_script_;
   std::map<std::string, std::string> texts_;          ///< of each file that was read
   std::map<std::string, std::vector<Choices>> ways_;  ///< with which each of them is included
   std::map<std::string, std::string> values_;         ///< of variables in folders' names
-  Choices certain_;                    ///< values of -var, and of first definitions that all runs share
-  std::vector<std::string> doubtful_;  ///< variables whose first definition a run may not see
+  Choices certain_;  ///< values of choices that no line of the script can change
+  /// All that `index` lines give a variable, or -var; an `include ${name}` may be any of these.
+  std::map<std::string, std::vector<std::string>> offered_;
   std::map<std::string, std::vector<std::string>> choices_;  ///< of variables in files' names
   std::map<std::string, std::string> included_as_;           ///< such a file's name, variable and all
   bool all_found_ = true;  ///< no file is included from a folder that is not known

@@ -20,8 +20,8 @@ struct GrainPair {
 /// The two grains of a contact, the lower identifier first.
 GrainPair pair_of(const Packing& packing, const Contact& contact);
 
-/// Pairs of the contacts that this rank counts, sorted. A pair that touches twice (across a small periodic
-/// box) is listed twice.
+/// Pairs of the contacts that this rank counts, those with a grain outside of the sample too, sorted. A pair
+/// that touches twice (across a small periodic box) is listed twice.
 std::vector<GrainPair> contact_pairs(const Packing& packing);
 
 /// What one rank adds. Pairs may be shared out over ranks in any way, as long as equal pairs meet on one

@@ -6,8 +6,8 @@
 
 namespace suffuse::micromechanics {
 
-/// One rank's part of Σ k_n l², N·m, over the contacts it counts. `normal_stiffness`: k_n of each entry of
-/// Packing::contacts, N/m, same order (for Hertz contacts the tangent one).
+/// One rank's part of Σ k_n l², N·m, over its contacts by branch_share. `normal_stiffness`: k_n of each entry
+/// of Packing::contacts, N/m, same order (for Hertz contacts the tangent one).
 double stiffness_length_sum(const Packing& packing, std::span<const double> normal_stiffness);
 
 /// Upper (Voigt) bound of the bulk modulus of the packing, Pa: all branches shorten alike,

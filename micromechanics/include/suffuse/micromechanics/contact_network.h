@@ -35,7 +35,7 @@ struct Contact {
 enum class Listing {
   whole,
   elsewhere,  ///< nothing: the second grain's owner lists the contact, too, and that one stands for it
-  own_half    ///< the second grain is not of the sample (part_inside): what is the first one's
+  own_half    ///< half: the second grain is not of the sample (part_inside)
 };
 
 /// The second grain of one listing that this rank does not own, or of which it is a periodic image, or that

@@ -14,9 +14,9 @@ enum class GrainArm {
   pair_halves     ///< half of the branch, whatever the radii (App. F; LIGGGHTS's `stress/atom`)
 };
 
-/// One rank's part of V σ_ij = Σ_c l_i f_j over the contacts it counts, N·m. l: branch from second to first
-/// grain, f: force on the first, so that compression is positive. Contacts with walls add (centre − point of
-/// contact)_i f_j. No kinetic part (thesis eqs 4.1, 6.3).
+/// One rank's part of V σ_ij = Σ_c l_i f_j over its contacts by branch_share, N·m. l: branch from second to
+/// first grain, f: force on the first, so that compression is positive. Contacts with walls add (centre −
+/// point of contact)_i f_j. No kinetic part (thesis eqs 4.1, 6.3).
 TensorSum stress_times_volume(const Packing& packing);
 
 /// V_p σ^p of each owned grain, N·m, in the order of Packing::grains (thesis eqs 4.2, 6.4); a contact with a

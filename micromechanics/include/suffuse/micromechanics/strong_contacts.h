@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "suffuse/micromechanics/contact_network.h"
 #include "suffuse/micromechanics/sums.h"
 
@@ -32,8 +34,8 @@ StrongSums strong_sums(const Packing& packing, double threshold);
 struct StrongContacts {
   double share = 0;              ///< strong contacts over all contacts
   double mean_stress_share = 0;  ///< share of p' that they carry; 0 where p' = 0
-  double deviator_share =
-      0;  ///< share of σ_aa − (σ_bb + σ_cc)/2, a the axis; 0 below kIsotropyTolerance of p'
+  /// Share of σ_aa − (σ_bb + σ_cc)/2, a the axis; none where that is below kIsotropyTolerance of p'.
+  std::optional<double> deviator_share;
 };
 
 StrongContacts strong_contacts(const StrongSums& sums, int axis);
