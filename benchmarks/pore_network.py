@@ -1,5 +1,5 @@
 """A pore network beside the lattice: the packings of price_of_methods by YADE's PeriodicFlowEngine (pore-scale finite volumes on the
-triangulation of the grains, Chareyre et al. 2012), one Stokes solve each, as rows of price_of_methods.csv.
+triangulation of the grains, `chareyre2012`), one Stokes solve each, as rows of price_of_methods.csv.
 
     price_of_methods --grains grains.csv > price_of_methods.csv
     yade -n -x benchmarks/pore_network.py grains.csv >> price_of_methods.csv
