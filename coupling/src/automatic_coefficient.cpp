@@ -116,7 +116,7 @@ void PoreSurvey::update(const std::vector<LatticeSphere>& spheres, const Coeffic
     sum(add_radius);
     range_.assign(values_held(), 1);  // between the rows, too, where packs end
     cells.range = range_.data();
-    for (int z = 0; z < cells.cells[2]; ++z) range(cells, static_cast<float>(law.reach), z);
+    for (int z = 0; z < cells.cells[2]; ++z) range(cells, static_cast<float>(law.reach), kShortestRange, z);
   }
   sum(add);
   const PoreTerms terms{static_cast<float>(law.crowded / 6), static_cast<float>(law.narrow / 36),

@@ -108,14 +108,15 @@ void add_radius(const double* position, double radius, const PoreCells& cells) {
              [&](const Floats& surface, const Floats&) { return rounded(surface * own); });
 }
 
-void range_plane(const PoreCells& cells, float reach, int z) {
+void range_plane(const PoreCells& cells, float reach, float shortest, int z) {
   constexpr float least = 1.f / 1024;  // less is mostly rounding, and no narrow pore
   for (int y = 0; y < cells.cells[1]; ++y) {
     const std::ptrdiff_t row = cells.row_pitch * y + cells.plane_pitch * z;
     for (int x = 0; x < cells.cells[0]; x += kLanes) {
       const Floats surface = load(cells.surface + row + x);
       const Floats mean = load(cells.solid + row + x) / greater(surface, Floats{} + least);
-      store(cells.range + row + x, surface > least ? reach * mean : Floats{} + 1e6f);
+      const Floats range = greater(reach * mean, Floats{} + shortest);
+      store(cells.range + row + x, surface > least ? range : Floats{} + 1e6f);
     }
   }
 }

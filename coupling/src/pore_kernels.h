@@ -25,13 +25,13 @@ struct PoreTerms {
 ///
 /// add_radius adds, through the window of a sphere's own radius, its surface and (in `solid`) that times the
 /// radius to the cells within twice the radius. range_plane makes of both `reach` times the mean radius of
-/// the surfaces that a cell sees.
+/// the surfaces that a cell sees, at least `shortest` cells.
 /// add_smoothed adds a sphere's surface and volume to the cells that see it.
 /// narrow_plane writes what the terms give over the surface.
 #define SUFFUSE_DECLARE_PORES(instruction_set)                                      \
   namespace instruction_set {                                                       \
   void add_radius(const double* position, double radius, const PoreCells& cells);   \
-  void range_plane(const PoreCells& cells, float reach, int z);                     \
+  void range_plane(const PoreCells& cells, float reach, float shortest, int z);     \
   void add_smoothed(const double* position, double radius, const PoreCells& cells); \
   void narrow_plane(const PoreCells& cells, const PoreTerms& terms, int z);         \
   }

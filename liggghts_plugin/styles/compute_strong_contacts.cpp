@@ -64,7 +64,7 @@ void ComputeStrongContacts::compute_vector() {
   // Frozen at the first state that has contacts.
   if (kind_ == Threshold::mean || (kind_ == Threshold::frozen && threshold_ == 0)) threshold_ = mean;
   const StrongContacts strong = strong_contacts(over_ranks(strong_sums(sample, threshold_)), axis_);
-  values_ = {strong.share,          threshold_,     mean, strong.mean_stress_share,
-             strong.deviator_share.value_or(0), forces.contacts};
+  values_ = {strong.share,   threshold_, mean, strong.mean_stress_share, strong.deviator_share.value_or(0),
+             forces.contacts};
   vector = values_.data();
 }

@@ -52,15 +52,19 @@ double largest_permeability_error(double cells_per_sauter_diameter,
 /// Each sphere's surface and volume are seen through a window 1 - (t/L)^2, t < L the distance. L is the
 /// sphere's own radius, so that fine grains and coarse ones count over their own size; but where finer ones
 /// fill that range, `reach` times the mean radius of the surfaces around the cell (each seen through the
-/// window of its own radius), if that is less: a coarse grain's surface is not in the pores between the fines
-/// beside it. Both are radial functions of closed form about the sphere's centre. A twentieth is added to the
-/// volume between the grains, which may come out as nothing. Walls count as nothing.
+/// window of its own radius) or kShortestRange, the larger, if that is less: a coarse grain's surface is not
+/// in the pores between the fines beside it. Both are radial functions of closed form about the sphere's
+/// centre. A twentieth is added to the volume between the grains, which may come out as nothing. Walls count
+/// as nothing.
 ///
 /// Each rank must know the spheres that are within twice their radius of its cells. Sums are of multiples of
 /// 2^-20: the same in any order and on any number of ranks.
 class PoreSurvey {
  public:
   static constexpr double kOpenShare = 0.05;
+  /// Cells. Fines of two or three cells have too little drag; with windows as wide as this a coarse grain
+  /// beside them makes up for a third of it (docs/decisions/solid-operator.md).
+  static constexpr float kShortestRange = 4;
 
   /// Values are laid out as those of `arrays`.
   PoreSurvey(lbm::InstructionSet instruction_set, const lbm::PartialSolidArrays& arrays,
