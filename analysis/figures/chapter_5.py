@@ -148,8 +148,9 @@ def draw(samples, folder):
     def cases(panel):
         panel.axhline(0.5, color="#606060", linewidth=0.6, linestyle=":")
         panel.axvline(1.0, color="#606060", linewidth=0.6, linestyle=":")
-        for text, x, y in (("I", 0.02, 0.02), ("IV", 0.02, 0.95), ("II", 0.93, 0.02), ("III", 0.93, 0.95)):
-            panel.annotate(text, (x, y), xycoords="axes fraction", fontsize=8, va="bottom" if y < 0.5 else "top")
+        for text, x, y in (("I", -5, -5), ("IV", -5, 5), ("II", 5, -5), ("III", 5, 5)):  # about their corner, clear of the legend
+            panel.annotate(text, (1.0, 0.5), (x, y), textcoords="offset points", fontsize=8, color="#606060",
+                           ha="left" if x > 0 else "right", va="bottom" if y > 0 else "top")
 
     against_fines(samples, folder / "figure_5_3.png", [("unconnected_fines_share", "unconnected fines (%)", 100)])
     curves(samples, folder / "figure_5_4.png", strain, q, (with_strain, "deviatoric stress q (kPa)"))
