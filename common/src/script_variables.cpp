@@ -121,7 +121,8 @@ void ScriptVariables::note_head() {
       certain_.emplace(found[1], value);
     add(seen, found[1]);
   }
-  std::erase_if(certain_, [&](const auto& one) { return changes(one.first); });
+  std::erase_if(certain_,
+                [&](const auto& one) { return !choices_.contains(one.first) || changes(one.first); });
 }
 
 /// Does some line take the variable to its next value, or away?

@@ -230,6 +230,9 @@ TEST_CASE("a script's variables: those that -var can set, through its includes")
         "x: variable = speed, must be used by in.alone as it is called here; it is with -var case B");
   CHECK_FALSE(ScriptVariables(alone, "x").reads("speed"));
   CHECK(of_case("A", "speed") == not_read);
+  CHECK(message_of([&] {
+          ScriptVariables(alone, "x", {{"a(", "1"}}).require_known("a(", "x");
+        }).starts_with("x: variable = a(, must be used by in.alone or a file"));
   CHECK(of_case("B", "speed").empty());
   CHECK(of_case("A", "tau").empty());
   CHECK(of_case("B", "tau").ends_with("it is with -var case A"));
