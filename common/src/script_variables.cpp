@@ -94,7 +94,7 @@ void ScriptVariables::read(const std::string& file, const Choices& under) {
     if (!stream) return;
     text_ += texts_[path] = std::string{std::istreambuf_iterator<char>(stream), {}} + '\n';
   }
-  const std::string text = texts_[path];
+  const std::string& text = texts_[path];  // stays while others are read
   static const std::regex other_file(R"(\b(?:include|jump)\s+["']?([^\s"']+))");  // in `if ... then` too
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

@@ -116,7 +116,7 @@ std::size_t write_contacts(Hdf5File& file, const std::string& step, const microm
   std::vector<std::int64_t> ids;
   std::vector<double> force, normal, branch, ends, friction, limit, spring;
   for (const micromechanics::Contact& contact : network.contacts) {
-    if (contact_share(network, contact) == 0) continue;
+    if (!is_counted(network, contact)) continue;
     ids.insert(ids.end(), {first_grain(network, contact).id, second_id(network, contact)});
     force.insert(force.end(), contact.force.begin(), contact.force.end());
     normal.push_back(micromechanics::normal_force(contact));

@@ -25,7 +25,7 @@ void ComputeSlippingIndex::compute_local() {
   columns_.clear();
   const Packing& packing = this->packing();
   for (const Contact& contact : packing.contacts) {
-    if (contact_share(packing, contact) == 0) continue;
+    if (!is_counted(packing, contact)) continue;
     const double row[kContactColumns] = {slipping_index(contact),
                                          mobilised_friction(contact),
                                          normal_force(contact),

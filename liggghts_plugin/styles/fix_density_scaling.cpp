@@ -299,7 +299,7 @@ void FixDensityScaling::sample() {
   suffuse::sum_over_ranks(lmp, mm::as_doubles(stress));
   std::array<double, 3> forces{};  // Σ |resultant| and number of scaled grains, Σ |contact force|
   for (const auto& contact : packing.contacts)
-    if (mm::contact_share(packing, contact) > 0) forces[2] += contact.force.norm();
+    if (mm::is_counted(packing, contact)) forces[2] += contact.force.norm();
   for (int i = 0; i < atom->nlocal; ++i) {
     if (factor(i) <= 1) continue;
     forces[0] += suffuse::Vec3(atom->f[i][0], atom->f[i][1], atom->f[i][2]).norm();

@@ -44,7 +44,7 @@ ServoNetwork measure_network(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixContactSample
                                depth);  // of f ~ depth^exponent
     resultant[first] += contact.force;
     if (mm::owns_second(contact)) resultant[static_cast<std::size_t>(contact.second)] -= contact.force;
-    if (mm::contact_share(packing, contact) == 0) continue;
+    if (!mm::is_counted(packing, contact)) continue;
     sums[1] += 1;
     sums[3] += contact.force.norm();
     sums[5] += depth / smaller_diameter(packing, contact);

@@ -13,7 +13,7 @@ std::vector<GrainPair> contact_pairs(const Packing& packing) {
   std::vector<GrainPair> pairs;
   pairs.reserve(packing.contacts.size());
   for (const Contact& contact : packing.contacts)
-    if (contact_share(packing, contact) > 0) pairs.push_back(pair_of(packing, contact));
+    if (is_counted(packing, contact)) pairs.push_back(pair_of(packing, contact));
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -138,11 +138,10 @@ std::vector<BrokenContacts> LayerReference::broken(const Packing& packing) const
   std::vector<BrokenSums> sums(contacts_.size());
   std::multimap<GrainPair, int> unseen = layer_of_pair_;  // a pair may touch through two images
   for (const Contact& contact : packing.contacts) {
-    if (contact_share(packing, contact) == 0) continue;
+    if (!is_counted(packing, contact)) continue;
     if (const auto layer = layers_.of(packing, contact))
       for_layer_and_all(*layer, layers_.layers, [&](std::size_t k) { sums[k].current += 1; });
-    const auto [low, high] = pair_of(packing, contact);
-    const auto reference = unseen.find(GrainPair{low, high});
+    const auto reference = unseen.find(pair_of(packing, contact));
     if (reference == unseen.end()) continue;
     for_layer_and_all(reference->second, layers_.layers, [&](std::size_t k) { sums[k].kept += 1; });
     unseen.erase(reference);

@@ -42,7 +42,7 @@ bool is_sliding(const Contact& contact, const SlidingRule& rule) {
 
 std::int64_t contacts_above_limit(const Packing& packing, double tolerance) {
   return std::count_if(packing.contacts.begin(), packing.contacts.end(), [&](const Contact& contact) {
-    return contact_share(packing, contact) > 0 && is_above_limit(contact, tolerance);
+    return is_counted(packing, contact) && is_above_limit(contact, tolerance);
   });
 }
 

@@ -89,6 +89,11 @@ inline double contact_share(const Packing& packing, const Contact& contact) {
   return listing == Listing::whole ? 1 : listing == Listing::own_half ? 0.5 : 0;
 }
 
+/// Does this listing stand for its contact, whole or by half?
+inline bool is_counted(const Packing& packing, const Contact& contact) {
+  return owns_second(contact) || image_of(packing, contact).listing != Listing::elsewhere;
+}
+
 inline const Grain& first_grain(const Packing& packing, const Contact& contact) {
   return packing.grains[static_cast<std::size_t>(contact.first)];
 }
