@@ -63,6 +63,7 @@ Snapshot final_state(const SampleFolder& sample, const std::string& who) {
 /// The criteria on the grains as they are in the sample.
 struct GradingRatios {
   std::optional<double> kezdi, kenney_lau, constriction;
+  std::optional<double> constriction_loose_cut;  ///< dense, cut where loose soils are, if that differs
   std::optional<double> coordination, stress_reduction;  ///< Z and alpha that eqs 4.7, 4.8 give for them
 };
 
@@ -89,9 +90,14 @@ GradingRatios ratios_of(const Grading& grading, double relative_density) {
   ratios.kenney_lau = micromechanics::minimum_shape_ratio(grading).ratio;
   micromechanics::ConstrictionOptions options;
   options.relative_density = relative_density;
+  micromechanics::ConstrictionLimits limits = limits_for(grading);
   try {
     const micromechanics::ConstrictionAnalysis analysis =
-        micromechanics::analyse_constrictions(grading, options, limits_for(grading));
+        micromechanics::analyse_constrictions(grading, options, limits);
+    const double split = micromechanics::thesis_split(grading, relative_density, limits).finer;
+    limits.dense_split = limits.fines_split;
+    if (micromechanics::thesis_split(grading, relative_density, limits).finer != split)
+      ratios.constriction_loose_cut = micromechanics::analyse_constrictions(grading, options, limits).ratio();
     ratios.constriction = analysis.ratio();
     ratios.coordination = analysis.coordination;
     ratios.stress_reduction = analysis.stress_reduction;
@@ -139,6 +145,9 @@ Comparison compare(const SampleFolder& sample, const ThesisRow& row, Table table
                          {"alpha_eq_4_8", ratios.stress_reduction,
                           predicted(micromechanics::predicted_stress_reduction, row.constriction)},
                          {"porosity", measured("porosity"), row.porosity}};
+    if (ratios.constriction_loose_cut)  // the table's own rows are those of this cut, but for 11b's
+      result.quantities.insert(result.quantities.begin() + 2,
+                               {"constriction_ratio_25", ratios.constriction_loose_cut, row.constriction});
   } else {
     result.quantities = {{"void_ratio", measured("void_ratio"), row.void_ratio}};
   }

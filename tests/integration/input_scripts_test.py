@@ -39,6 +39,9 @@ def check_reproduction(folder, values):
     # The dump's box has six digits: up to 5e-6 of each side, 1.5e-5 of the volume, and (1 - n)/n = 4 times that of the porosity.
     for name, relative in (("porosity", 1e-4), ("coordination_number", 1e-9), ("alpha_pair_halves", 3e-5), ("alpha_contact_point", 3e-5), ("mean_stress", 3e-5)):
         near(values, name, float(rows[name if name in rows else name + "_pa"]["measured"]), relative)
+    for name in ("constriction_ratio", "constriction_ratio_25"):  # the text's cut of a dense soil at 20 %, and the table's at 25
+        expect(rows[name]["thesis"] == "0.361", f"{name}: {rows}")
+    near({"constriction_ratio_25": float(rows["constriction_ratio_25"]["measured"])}, "constriction_ratio_25", 0.361, 0.05)
     expect(rows["alpha_finest_fraction"]["thesis"] == "1.789" and rows["alpha_pair_halves"]["thesis"] == "" and rows["porosity"]["state"] == "dense", f"another row: {rows}")
 
 
