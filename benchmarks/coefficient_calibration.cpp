@@ -5,9 +5,10 @@
 //   coefficient_calibration --packing sc:0.45,fcc:0.6 --diameter 5,10,20 --coefficient auto --operator sc3
 //
 // Packings: sc:PHI, fcc:PHI, random:PHI:COUNT:SEED, spread:PHI:COUNT:SEED:SPREAD, appendix_c:PHI:SEED,
-// gap:PHI:COARSE:SEED:RATIO:FINES_SHARE, grading:PHI:COUNT:FILE:SEED, pair:PHI:GAP. A box is periodic and a
-// whole number of cells; the diameter that fits it best is taken and printed. K is the drag on a sphere over
-// 6 pi mu a U with the Sauter radius, U the superficial velocity: permeability/d^2 = 1/(18 phi K).
+// gap:PHI:COARSE:SEED:RATIO:FINES_SHARE, grading:PHI:COUNT:FILE:SEED, pair:PHI:GAP, dump:FILE (grains of a
+// cube). A box is periodic and a whole number of cells; the diameter that fits it best is taken and printed.
+// K is the drag on a sphere over 6 pi mu a U with the Sauter radius, U the superficial velocity:
+// permeability/d^2 = 1/(18 phi K).
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>

@@ -10,8 +10,8 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 namespace {
 
-/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-16 (up to 64).
-constexpr float kFractionRounding = 3.f, kStrengthRounding = 192.f;
+/// Adding and subtracting this rounds to multiples of 2^-22 (values up to 1) or 2^-14 (up to 256).
+constexpr float kFractionRounding = 3.f, kStrengthRounding = 768.f;
 
 [[gnu::always_inline]] inline double plane_from_centre(const MappedSphere& m, const SliceList& list,
                                                        const CellArrays& arrays) {
@@ -67,7 +67,7 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
       Floats strength = fraction;
       if constexpr (kOwn) {
         const Floats pore = arrays.pore_coefficient ? load(arrays.pore_coefficient + cell) : Floats{};
-        const Floats k = lesser(coefficient + pore, Floats{} + kLargestCellCoefficient);
+        const Floats k = lesser(coefficient + pore, Floats{} + m.largest_coefficient);
         strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
       }
       store(entries, strength);

@@ -10,8 +10,6 @@ namespace suffuse::coupling {
 /// Spheres with a smaller radius (cells) are mapped by the exact rule where the linear one is asked for.
 inline constexpr float kLeastLinearRadius = 1;
 
-inline constexpr float kLargestCellCoefficient = static_cast<float>(kLargestCoefficient);
-
 /// How fractions are written.
 struct FractionRule {
   FractionMethod method = FractionMethod::exact;

@@ -65,6 +65,7 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
     mapped.linear_offset = linear_offset(sphere.radius);
   mapped.radius = radius;
   mapped.coefficient = static_cast<float>(sphere.coefficient);
+  mapped.largest_coefficient = static_cast<float>(largest_coefficient(sphere.radius));
   for (int a = 0; a < 3; ++a) {
     mapped.position[a] = sphere.position[a];
     mapped.velocity[a] = static_cast<float>(sphere.velocity[a]);
@@ -253,7 +254,7 @@ void SolidMapping::set_closed(const std::vector<std::uint8_t>& closed) {
 
 void SolidMapping::cover_closed(const lbm::RowBlock& block) const {
   if (closed_.empty()) return;
-  const float strength = settings_.cells.own_coefficients ? kLargestCellCoefficient : 1;
+  const float strength = settings_.cells.own_coefficients ? static_cast<float>(kLargestCoefficient) : 1;
   for (int y = block.begin_y; y < block.end_y; ++y)
     for (int x = 0; x < box_.extent(0); ++x) {
       if (closed_[static_cast<std::size_t>(x + box_.extent(0) *

@@ -143,6 +143,10 @@ Packing make_packing(const std::string& text) {
   const std::string& kind = words.at(0);
   if (kind == "sc" || kind == "fcc") return array_packing(number(1), kind == "fcc");
   if (kind == "pair") return pair_packing(number(1), number(2));
+  if (kind == "dump") {
+    const PlacedSpheres spheres = dumped_spheres(words.at(1));
+    return {spheres.centres, spheres.radii};
+  }
   Packing packing;
   PackingRequest request;
   if (kind == "random") {

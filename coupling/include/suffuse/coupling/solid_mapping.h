@@ -21,7 +21,7 @@ struct SliceNotes;
 /// are left as they are. Any number of spheres may share a cell: where their fractions add up to more than
 /// one they shrink in proportion, and the exchange of a cell is shared in proportion to the strengths
 /// (fraction times the coefficients of sphere and pore). Fractions are multiples of 2^-22 and strengths with
-/// coefficients of 2^-16, so that their sums are exact in any order.
+/// coefficients of 2^-14, so that their sums are exact in any order.
 class SolidMapping {
  public:
   SolidMapping(const SolidSettings& settings, lbm::InstructionSet instruction_set,
