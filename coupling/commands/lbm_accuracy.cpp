@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -210,13 +211,23 @@ std::string stiffness_line(const AccuracyWish& wish, const AccuracyScene& scene)
       factor, 1 / std::sqrt(factor));
 }
 
-/// The cheapest that keeps to what was asked for; `chosen` where none of them is known to.
+/// Trials of a few steps tell prices no better than that.
+constexpr double kSamePrice = 1.3;
+
+/// The cheapest that keeps to what was asked for, and of what costs the same the most accurate; `chosen`
+/// where none of them is known to.
 AccuracyChoice cheapest(const std::vector<PricedChoice>& choices, const AccuracyWish& wish,
                         const AccuracyChoice& chosen) {
+  const auto serves = [&](const PricedChoice& priced) {
+    return keeps_to(wish, priced.choice) && (wish.resolved || priced.choice.averaged);
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const PricedChoice& priced : choices)
+    if (serves(priced)) least = std::min(least, priced.all());
   const PricedChoice* best = nullptr;
   for (const PricedChoice& priced : choices)
-    if (keeps_to(wish, priced.choice) && (wish.resolved || priced.choice.averaged) &&
-        (best == nullptr || priced.all() < best->all()))
+    if (serves(priced) && priced.all() <= kSamePrice * least &&
+        (best == nullptr || priced.choice.errors.together() < best->choice.errors.together()))
       best = &priced;
   return best == nullptr ? chosen : best->choice;
 }
