@@ -94,9 +94,8 @@ GradingRatios ratios_of(const Grading& grading, double relative_density) {
   try {
     const micromechanics::ConstrictionAnalysis analysis =
         micromechanics::analyse_constrictions(grading, options, limits);
-    const double split = micromechanics::thesis_split(grading, relative_density, limits).finer;
     limits.dense_split = limits.fines_split;
-    if (micromechanics::thesis_split(grading, relative_density, limits).finer != split)
+    if (micromechanics::thesis_split(grading, relative_density, limits).finer != analysis.split.finer)
       ratios.constriction_loose_cut = micromechanics::analyse_constrictions(grading, options, limits).ratio();
     ratios.constriction = analysis.ratio();
     ratios.coordination = analysis.coordination;

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "grading/grain_snapshot.h"
+
 namespace suffuse::coupling {
 
 namespace {
@@ -123,6 +125,20 @@ Packing pair_packing(double phi, double gap) {
   return packing;
 }
 
+/// The last snapshot of a periodic cube of grains.
+Packing dumped_packing(const std::string& path) {
+  const analysis::GrainSnapshot snapshot = analysis::read_grain_snapshot(path, "packing", true);
+  const Vec3 size = snapshot.box.high - snapshot.box.low;
+  if ((size - Vec3::Constant(size[0])).norm() > 1e-5 * size[0])
+    throw std::runtime_error("no cube in " + path);
+  Packing packing;
+  for (const analysis::Sphere& grain : snapshot.grains) {
+    packing.centres.emplace_back((grain.centre - snapshot.box.low) / size[0]);
+    packing.radii.push_back(grain.radius / size[0]);
+  }
+  return packing;
+}
+
 }  // namespace
 
 Packing array_packing(double c, bool face_centred) {
@@ -143,10 +159,7 @@ Packing make_packing(const std::string& text) {
   const std::string& kind = words.at(0);
   if (kind == "sc" || kind == "fcc") return array_packing(number(1), kind == "fcc");
   if (kind == "pair") return pair_packing(number(1), number(2));
-  if (kind == "dump") {
-    const PlacedSpheres spheres = dumped_spheres(words.at(1));
-    return {spheres.centres, spheres.radii};
-  }
+  if (kind == "dump") return dumped_packing(words.at(1));
   Packing packing;
   PackingRequest request;
   if (kind == "random") {

@@ -22,7 +22,7 @@ Packing array_packing(double c, bool face_centred);
 
 /// sc:PHI, fcc:PHI, pair:PHI:GAP (two spheres, a gap in diameters), random:PHI:COUNT:SEED,
 /// spread:PHI:COUNT:SEED:SPREAD, appendix_c:PHI:SEED or gap:PHI:COARSE:SEED:RATIO:FINES_SHARE or
-/// grading:PHI:COUNT:FILE:SEED or dump:FILE (a sample of grains as it was dumped). Throws std::runtime_error
+/// grading:PHI:COUNT:FILE:SEED or dump:FILE (a sample as it was dumped). Throws std::runtime_error
 /// for another text.
 Packing make_packing(const std::string& text);
 

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
-#include <map>
 #include <numbers>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -259,41 +256,6 @@ std::vector<double> grading_radii(const std::string& path, int count) {
     while (static_cast<double>(radii.size()) + 0.5 < count * finer) radii.push_back(radius / largest);
   }
   return radii;
-}
-
-PlacedSpheres dumped_spheres(const std::string& path) {
-  std::ifstream file(path);
-  PlacedSpheres spheres;
-  Vec3 corner = Vec3::Zero(), size = Vec3::Zero();
-  std::map<std::string, std::size_t> column;
-  const auto bad = [&](const std::string& what) { return std::runtime_error(what + " in " + path); };
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    if (line.starts_with("ITEM: BOX BOUNDS")) {
-      for (int a = 0; a < 3; ++a) {
-        double high = 0;
-        if (!(file >> corner[a] >> high)) throw bad("no box");
-        size[a] = high - corner[a];
-      }
-    } else if (line.starts_with("ITEM: ATOMS ")) {
-      spheres = {};
-      column.clear();
-      words.ignore(12);
-      for (std::string name; words >> name;) column.emplace(name, column.size());
-      for (const char* name : {"x", "y", "z", "radius"})
-        if (!column.contains(name)) throw bad("no column " + std::string(name));
-    } else if (line.starts_with("ITEM: TIMESTEP")) {
-      column.clear();
-    } else if (!column.empty()) {
-      const std::vector<double> values{std::istream_iterator<double>(words), {}};
-      const auto value = [&](const char* name) { return values.at(column.at(name)); };
-      spheres.centres.emplace_back((Vec3(value("x"), value("y"), value("z")) - corner) / size[0]);
-      spheres.radii.push_back(value("radius") / size[0]);
-    }
-  }
-  if (spheres.radii.empty()) throw bad("no grains");
-  if ((size - Vec3::Constant(size[0])).norm() > 1e-5 * size[0]) throw bad("no cube");
-  return spheres;
 }
 
 std::vector<double> gap_graded_radii(int coarse, double ratio, double fines_share) {

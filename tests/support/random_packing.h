@@ -45,14 +45,6 @@ std::vector<double> appendix_c_radii();
 /// file.
 std::vector<double> grading_radii(const std::string& path, int count);
 
-/// Centres and radii in the last snapshot of a dump of grains (columns x, y, z and radius), over the edge of
-/// its periodic cube. Throws std::runtime_error without the file, the columns, or a cube.
-struct PlacedSpheres {
-  std::vector<Vec3> centres;
-  std::vector<double> radii;
-};
-PlacedSpheres dumped_spheres(const std::string& path);
-
 /// Coarse spheres of radius 1 and enough finer ones, `ratio` times smaller, to make up a share of the volume.
 std::vector<double> gap_graded_radii(int coarse, double ratio, double fines_share);
 
