@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   app.add_option("--collision", collision, "see `lbm collision`");
   app.add_option("--magic", run.magic, "of trt");
   app.add_option("--law", law, "constant,single,crowded,narrow,tight,reach of the automatic coefficient");
+  app.add_flag("--movable", run.movable, "coefficients cut as those of grains that may move");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
   app.add_flag("--through", run.through, "flow along z instead of x");
   app.add_option("--speed", speed, "moves packing and fluid along x, cells a step: another set of columns");

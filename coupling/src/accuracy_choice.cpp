@@ -114,7 +114,7 @@ double least_stiffness_number(double share, double solid_fraction) {
 }
 
 double counted_diameter(double fine, double sauter) {
-  constexpr double of_fines = 0.5, of_mean = 0.7;
+  constexpr double of_fines = 0.55, of_mean = 0.7;
   const double mean_counts = std::clamp((fine / sauter - of_fines) / (of_mean - of_fines), 0., 1.);
   return fine + mean_counts * std::max(0., sauter - fine);
 }

@@ -14,14 +14,17 @@ namespace {
 
 /// What packings showed: cells at a solid fraction of 0.55, root mean square, largest. The first row is a
 /// guess from the fines of gap-graded ones.
-constexpr MeasuredError kMeasured[] = {{1.5, 0.27, 0.54}, {2, 0.11, 0.25},     {2.5, 0.064, 0.18},
-                                       {3, 0.042, 0.113}, {3.5, 0.036, 0.068}, {4, 0.026, 0.065},
-                                       {5, 0.017, 0.047}, {8, 0.009, 0.033}};
+constexpr MeasuredError kMeasured[] = {{1.5, 0.27, 0.54},  {2, 0.135, 0.27},   {2.5, 0.067, 0.22},
+                                       {3, 0.0415, 0.134}, {3.5, 0.025, 0.05}, {4, 0.02, 0.05},
+                                       {5, 0.0175, 0.052}, {8, 0.009, 0.033}};
 
 double cells_of_usual_packing(double cells, double solid_fraction) {
-  constexpr double densest = 0.8;
+  constexpr double densest = 0.8, loosest = 0.45, loose = 0.52, share_of_loosest = 0.88;
+  constexpr double open = 0.3, bed = 0.4;
   const double porosity = 1 - std::clamp(solid_fraction, kUsualSolidFraction, densest);
-  return cells * std::sqrt(porosity / (1 - kUsualSolidFraction));
+  const double looseness = std::clamp((loose - solid_fraction) / (loose - loosest), 0., 1.) *
+                           std::clamp((solid_fraction - open) / (bed - open), 0., 1.);
+  return cells * std::sqrt(porosity / (1 - kUsualSolidFraction)) * (1 - (1 - share_of_loosest) * looseness);
 }
 
 /// Else every window is that of the spheres' radius. Ranks may differ in this and find the same.
@@ -36,10 +39,6 @@ double CoefficientLaw::of_sphere(double diameter) const {
   constexpr double of_a_point = 10;
   const double below_a_cell = diameter < 1 ? std::pow(diameter, -1.5) - 1 : 0;
   return constant + single / diameter + of_a_point * below_a_cell;
-}
-
-double CoefficientLaw::operator()(double diameter, double surface_per_pore) const {
-  return std::min(of_sphere(diameter) + of_pore(surface_per_pore), largest_coefficient(0.5 * diameter));
 }
 
 CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator) {

@@ -60,11 +60,13 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
+  mapping_.set_held(effects_.motion == Switch::off);
   set_pressure_gradient(settings.pressure_gradient);
 }
 
 void CoupledSimulation::set_effects(const EffectSettings& effects) {
   effects_ = effects;
+  mapping_.set_held(effects.motion == Switch::off);
   if (method_) return;
   lbm::CollisionSettings collision = collision_with(effects, settings_.fluid.collision);
   collision.relaxation_time = units_.relaxation_time();

@@ -90,6 +90,7 @@ EffectSettings EffectSwitches::settings() const {
   const auto switched = [this](const char* name) { return state(name).on ? Switch::on : Switch::off; };
   EffectSettings effects;
   effects.smagorinsky = smagorinsky_;
+  effects.motion = switched("motion");
   effects.turbulence = switched("turbulence");
   effects.comoving = switched("comoving");
   effects.lubrication = switched("lubrication");

@@ -65,7 +65,7 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
     mapped.linear_offset = linear_offset(sphere.radius);
   mapped.radius = radius;
   mapped.coefficient = static_cast<float>(sphere.coefficient);
-  mapped.largest_coefficient = static_cast<float>(largest_coefficient(sphere.radius));
+  mapped.largest_coefficient = static_cast<float>(largest_coefficient(sphere.radius, held_grains_));
   for (int a = 0; a < 3; ++a) {
     mapped.position[a] = sphere.position[a];
     mapped.velocity[a] = static_cast<float>(sphere.velocity[a]);
@@ -93,6 +93,12 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
   mapped.y_end = outside ? begin[1] : end[1];
   mapped.z_begin = begin[2];
   mapped.z_end = outside ? begin[2] : end[2];
+}
+
+void SolidMapping::set_held(bool held) {
+  if (held == held_grains_) return;
+  held_grains_ = held;
+  forget();
 }
 
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {

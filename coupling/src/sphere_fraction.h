@@ -10,18 +10,12 @@ namespace suffuse::coupling::SUFFUSE_KERNEL_NAMESPACE {
 
 using namespace simd::SUFFUSE_KERNEL_NAMESPACE;
 
-template <class V>
-[[gnu::always_inline]] inline V positive_cubed(const V& v) {
-  const V p = greater(v, V{});
-  return p * p * p;
-}
-
 /// Half of a cell's diagonal: beyond radius + this nothing is covered, within radius - this all is.
 inline constexpr float kHalfDiagonal = 0.8660255f;
 
 /// Below this radius a cell is cut into smaller ones for the plane cut, until its radius is at least this in
 /// them.
-inline constexpr float kLeastRadius = 2.f;
+inline constexpr float kLeastRadius = 1.5f;
 
 /// But into no more than this cubed: of smaller spheres, below a fifth of a cell across, little or nothing is
 /// left, and their volume would not be felt either.
@@ -34,10 +28,14 @@ struct Sphere {
   int parts;            ///< cells are cut into parts^3
 };
 
-/// Part of a cube of edge 1 with its centre at (x, y, z) from the centre of a sphere, by the plane through
-/// the sphere's surface nearest to the cube's centre, moved inwards by the mean depth of the surface below it
-/// (t^2/2r, with the mean square distance t^2 in the cut taken from its orientation). The volume under a
-/// plane is Scardovelli and Zaleski's (docs key: scardovelli2000).
+/// Part of a cube of edge 1 with its centre at (x, y, z) from the centre of a sphere: what is behind the
+/// plane that touches the sphere nearest to the cube's centre, less what lies between the two. Volume and
+/// section of the cube behind a plane are Scardovelli and Zaleski's (docs key: scardovelli2000). Between
+/// plane and sphere is the integral of t^2/2r over the section, t the distance from the point of contact: the
+/// mean of t^2 is 0.06 + 0.12 times the section's area, fitted to cuts in all directions (a face has 1/6, the
+/// hexagon across a diagonal 5/24, less towards corners). The plane is moved inwards by half of a face's 1/6
+/// beforehand, and the section taken there. Fractions err by 0.0029 (rms) at a radius of 1.5, 0.0017 at 2,
+/// 0.0006 at 6.
 template <class V>
 [[gnu::always_inline]] inline V plane_cut(const V& x, const V& y, const V& z, float radius) {
   const V distance = square_root(x * x + y * y + z * z);
@@ -49,18 +47,23 @@ template <class V>
           ny = greater(magnitude(y) * inverse, V{} + least),
           nz = greater(magnitude(z) * inverse, V{} + least);
   const V sum = nx + ny + nz, product = nx * ny * nz;
-  // Mean of t^2 over the cut through the middle: 1/6 for a face, 5/24 for the hexagon across a diagonal.
+  constexpr float shift = 1.f / 12;
   const float inverse_radius = 1 / radius;
-  const V curvature = (inverse_radius / 12) + ((27.f / 48) * inverse_radius) * (product * product);
-  const V offset = 0.5f * sum - (distance - radius) - curvature;  // along the normal, from the nearest corner
+  // Along the normal, from the nearest corner
+  const V offset = 0.5f * sum - (distance - radius) - shift * inverse_radius;
   const V whole = offset > 0.5f * sum ? V{} + 1.f : V{};
   const V low = lesser(offset, sum - offset);
   const V largest = greater(nx, greater(ny, nz));
-  const V per_volume = 1.f / (6.f * product);  // long before it is needed
-  const V volume = (positive_cubed(low) - positive_cubed(low - nx) - positive_cubed(low - ny) -
-                    positive_cubed(low - nz) + positive_cubed(low - (sum - largest))) *
-                   per_volume;
-  return whole > 0.f ? 1.f - volume : volume;
+  const V per_product = 1.f / product;  // long before it is needed
+  const V all = greater(low, V{}), off_x = greater(low - nx, V{}), off_y = greater(low - ny, V{}),
+          off_z = greater(low - nz, V{}), twice_off = greater(low - (sum - largest), V{});
+  const V all2 = all * all, off_x2 = off_x * off_x, off_y2 = off_y * off_y, off_z2 = off_z * off_z,
+          twice_off2 = twice_off * twice_off;
+  const V area = (all2 - off_x2 - off_y2 - off_z2 + twice_off2) * (0.5f * per_product);
+  const V volume = (all2 * all - off_x2 * off_x - off_y2 * off_y - off_z2 * off_z + twice_off2 * twice_off) *
+                   ((1.f / 6) * per_product);
+  const V between = area * (0.06f * area - (shift - 0.03f)) * inverse_radius;
+  return (whole > 0.f ? 1.f - volume : volume) - between;
 }
 
 template <FractionMethod kMethod, class V>

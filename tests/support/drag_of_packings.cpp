@@ -106,6 +106,7 @@ Scene make_scene(const Packing& packing, double diameter, const DragRun& run) {
   if (run.coefficient > 0) settings.solids.cells.coefficient = run.coefficient;
   settings.solids.law = run.law;
   settings.solids.fraction = run.fraction;
+  settings.effects.motion = run.movable ? Switch::on : Switch::off;
   settings.substeps = 1;
   return scene;
 }

@@ -39,6 +39,7 @@ struct DragRun {
   double water = 0;                   ///< layers without grains below and above (z), in box lengths
   bool through = false;               ///< flow along z, else along x
   bool single = false;                ///< single precision
+  bool movable = false;               ///< coefficients as of grains that may move (largest_coefficient)
 };
 
 struct DragResult {

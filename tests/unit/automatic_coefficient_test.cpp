@@ -142,14 +142,14 @@ std::vector<LatticeSphere> two_and_a_small_one(double scale) {
 TEST_CASE("The coefficient falls with resolution and rises with crowding") {
   for (const auto o : {lbm::SolidOperator::force, lbm::SolidOperator::sc3}) {
     const CoefficientLaw law = coefficient_law(o);
+    for (double d = 2; d < 60; d *= 1.3) {
+      CHECK(law.of_sphere(d) > law.of_sphere(1.3 * d));
+      CHECK(law.of_sphere(d) > law.constant);
+    }
+    CHECK(law.of_pore(0) == 0);
     for (const double surface : {0., 0.1, 0.3, 0.8, 1.5})
-      for (double d = 2; d < 60; d *= 1.3) {
-        CHECK(law(d, surface) >= law(1.3 * d, surface));
-        CHECK(law(d, surface + 0.1) >= law(d, surface));
-        CHECK(law(d, surface) > law.constant);
-        CHECK(law(d, surface) <= kLargestCoefficient);
-      }
-    CHECK(law(1e6, 1e-6) == Approx(law.constant).epsilon(1e-4));
+      CHECK(law.of_pore(surface + 0.1) > law.of_pore(surface));
+    CHECK(law.of_sphere(1e6) == Approx(law.constant).epsilon(1e-4));
   }
   CHECK_THROWS_AS(coefficient_law(lbm::SolidOperator::sc1), UserError);
   CHECK_THROWS_AS(coefficient_law(lbm::SolidOperator::sc2), UserError);
@@ -280,6 +280,33 @@ TEST_CASE("Pores are surveyed when a grain comes or has moved, and only then") {
   simulation.step();
   CHECK(simulation.surveys() == before + 1);  // and when one goes
   CHECK(coefficient_in(simulation, facing) < apart + 1e-6);
+}
+
+TEST_CASE("Coefficients of grains that may move are cut lower than those of held ones") {
+  const auto largest_in = [](CoupledSimulation& simulation) {
+    double largest = 0;
+    lbm::for_each_cell(simulation.fluid().decomposition().local_box(), [&](int x, int y, int z) {
+      largest = std::max(largest, simulation.solid_coefficient({x, y, z}));
+    });
+    return largest;
+  };
+  CoupledSettings settings = cells_as_metres();
+  settings.solids.law = CoefficientLaw{{2, 0, 1e6, 0}};
+  PrescribedGrains grains(grains_at({Vec3(6, 8, 8), Vec3(20, 8, 8)}, {2, 0.9}), Vec3(30, 16, 16),
+                          {true, true, true}, 1.);
+  CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_SELF, {30, 16, 16}),
+                               Vec3::Zero(), grains);
+  simulation.map();
+  CHECK(largest_in(simulation) == Approx(kLargestCoefficient).epsilon(1e-3));
+  EffectSettings held;
+  held.motion = Switch::off;
+  simulation.set_effects(held);
+  simulation.map();
+  CHECK(largest_in(simulation) == Approx(kLargestOfHeld).epsilon(1e-3));
+  CHECK(coefficient_in(simulation, {20, 8, 8}) == Approx(kLargestCoefficient).epsilon(1e-3));
+  simulation.set_effects({});
+  simulation.map();
+  CHECK(largest_in(simulation) == Approx(kLargestCoefficient).epsilon(1e-3));
 }
 
 TEST_CASE("A coefficient that is given stays") {

@@ -102,15 +102,16 @@ struct Bounds {
 }  // namespace
 
 TEST_CASE("fractions agree with a quadrature of sphere and cube") {
-  // Half as much again as random positions showed. `exact` replaces the surface within a cell by a plane at
-  // its mean depth, so that its error falls with the radius (and cuts cells up below a radius of two);
-  // `linear` ignores the orientation of the surface: as good at any radius; sub-cells miss a layer of half a
-  // sub-cell at random.
-  const Bounds bounds = GENERATE(Bounds{FractionMethod::exact, 0.3, 0.0001, 0.001, 0.007},
-                                 Bounds{FractionMethod::exact, 0.7, 0.0006, 0.005, 0.008},
-                                 Bounds{FractionMethod::exact, 1.3, 0.0014, 0.006, 0.006},
-                                 Bounds{FractionMethod::exact, 2.5, 0.005, 0.03, 0.006},
-                                 Bounds{FractionMethod::exact, 5., 0.0026, 0.016, 0.0012},
+  // Half as much again as random positions showed. `exact` takes what lies between the surface within a cell
+  // and a plane from the plane's section, so that its error falls with the radius (and cuts cells up below a
+  // radius of one and a half); `linear` ignores the orientation of the surface: as good at any radius;
+  // sub-cells miss a layer of half a sub-cell at random.
+  const Bounds bounds = GENERATE(Bounds{FractionMethod::exact, 0.3, 0.0001, 0.0007, 0.006},
+                                 Bounds{FractionMethod::exact, 0.7, 0.0003, 0.0013, 0.0043},
+                                 Bounds{FractionMethod::exact, 1.3, 0.0006, 0.0023, 0.0028},
+                                 Bounds{FractionMethod::exact, 1.6, 0.0030, 0.016, 0.005},
+                                 Bounds{FractionMethod::exact, 2.5, 0.0016, 0.006, 0.0026},
+                                 Bounds{FractionMethod::exact, 5., 0.0008, 0.0043, 0.0007},
                                  Bounds{FractionMethod::linear, 2.5, 0.03, 0.10, 0.02},
                                  Bounds{FractionMethod::linear, 5., 0.03, 0.10, 0.003},
                                  Bounds{FractionMethod::subcells, 2.5, 0.014, 0.15, 0.012},

@@ -132,7 +132,7 @@ double least_stiffness_number(double share, double solid_fraction);
 
 /// Diameter that cells are counted by, m: the mean (Sauter) of packings whose finest quarter of the surface
 /// (fine_diameter.h) is no finer than 0.7 of it, as of those that the errors were measured on; of
-/// beds with much finer grains, half of it or less, that of the finest quarter, whose pores they are
+/// beds with much finer grains, 0.55 of it or less, that of the finest quarter, whose pores they are
 /// (tests/data/gap_graded_packings.csv).
 double counted_diameter(double fine, double sauter);
 

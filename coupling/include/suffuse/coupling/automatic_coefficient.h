@@ -13,7 +13,7 @@ namespace suffuse::coupling {
 ///
 ///   k = constant + single/D + crowded q + narrow q^2 + tight q^4,  q = s/6,
 ///
-/// at most largest_coefficient(D/2), where s is the surface of grains per volume of pore around the cell,
+/// cut at largest_coefficient(), where s is the surface of grains per volume of pore around the cell,
 /// 1/cells: 1/q is the diameter of a sphere with as much surface per volume as the pore has. D q is 0.44 at
 /// the surface of a lone sphere, and 0.6 to 1.5 in the mean of packings from phi = 0.2 to 0.62. Calibrated so
 /// that the permeability of arrays and random packings is right from 5 cells a diameter on, and of packings,
@@ -26,7 +26,6 @@ struct CoefficientLaw : lbm::CoefficientTerms {
     const double q = surface_per_pore / 6;
     return (crowded + (narrow + tight * q * q) * q) * q;
   }
-  double operator()(double diameter, double surface_per_pore) const;
 };
 
 /// The law of an operator (suffuse/lbm/solid_operators.h). A UserError for one that has none.
@@ -37,8 +36,10 @@ CoefficientLaw coefficient_law(lbm::SolidOperator solid_operator);
 /// the largest (docs/results/data/resolution_of_packings.csv, coefficient_fit_force.csv; periodic boxes,
 /// solid fractions 0.4 to 0.62; arrays of 0.34 err up to twice as much below five cells). Measured at 2 to 8
 /// cells, powers of the resolution between; beyond 8 as at 8, where the references are hardly better; a guess
-/// below 2. Pores of dense packings are narrower: above a solid fraction of 0.55 the cells count less, by the
-/// square root of the porosity over 0.45, up to 0.8 (samples of the thesis's gradings, 0.72 to 0.785:
+/// below 2. Grains of loose packings stand beside wide pores, where the law gives too little at two to four
+/// cells: from a solid fraction of 0.52 down the cells count less, by 0.88 at 0.45 to 0.4, and as they are
+/// from 0.3. Pores of dense packings are narrower: above 0.55 the cells count less, by the square root of the
+/// porosity over 0.45, up to 0.8 (samples of the thesis's gradings, 0.72 to 0.785:
 /// tests/data/gap_graded_packings.csv).
 inline constexpr double kUsualSolidFraction = 0.55;
 double expected_permeability_error(double cells_per_sauter_diameter,

@@ -10,11 +10,12 @@ enum class FractionMethod {
 };
 
 /// The coefficient of a sphere and its pores is cut here: strengths add up exactly in any order up to there.
-/// A sphere whose radius is below a cell is a point in the water that no survey of pores sees well; cut at
-/// 240, too, such fines gain speed without bound at relaxation times of 0.515 and less.
-inline constexpr double kLargestCoefficient = 240, kLargestOfAPoint = 60;
-inline constexpr double largest_coefficient(double radius) {
-  return radius < 1 ? kLargestOfAPoint : kLargestCoefficient;
+/// Cut at 240, spheres that the water may move answer it faster than they weigh and gain speed without bound
+/// (fines of 2 to 5 cells in dense gap-graded soils, case fines_in_dense_pores); and one whose radius is
+/// below a cell is a point in the water that no survey of pores sees well.
+inline constexpr double kLargestOfHeld = 240, kLargestCoefficient = 60;
+inline constexpr double largest_coefficient(double radius, bool held) {
+  return held && radius >= 1 ? kLargestOfHeld : kLargestCoefficient;
 }
 
 /// A sphere in lattice units: cells of the whole box, cell (0,0,0) reaching from 0 to 1; cells a step.

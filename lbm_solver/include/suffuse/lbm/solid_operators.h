@@ -16,7 +16,7 @@ namespace suffuse::lbm {
   MIXED(sc1, 1, {}, "bounce-back of the non-equilibrium part (Noble and Torczynski)") \
   MIXED(sc2, 1, {}, "relaxation towards the solid's equilibrium (Noble and Torczynski)") \
   MIXED(sc3, 2, (CoefficientTerms{0.64, 2.25, 7.6, 30.1}), "bounce-back in the solid's frame (Owen et al.)") \
-  DRAG(force, 2, (CoefficientTerms{1.7, 2.3, 15.2, 36, 147, 1.5}), "a drag inside the cell, in Guo's form")
+  DRAG(force, 2, (CoefficientTerms{1.7, 2.3, 15.2, 36, 124, 1.5}), "a drag inside the cell, in Guo's form")
 // clang-format on
 
 enum class SolidOperator {
