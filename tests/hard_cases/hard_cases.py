@@ -16,7 +16,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent / "support"), str(HERE)]
-from scenes import Program, columns  # noqa: E402
+from scenes import Program, columns, variable_words  # noqa: E402
 
 
 class Failed(Exception):
@@ -33,15 +33,26 @@ class Bench:
         if not condition:
             raise Failed(message)
 
-    def run(self, text, ranks=1, name="scene", timeout=600):
+    def watch(self, run, ranks):
+        """What `run` returns of the program on so many ranks, its guards' words kept."""
         for written in ("flow.csv", "grains.dump"):  # by the scene before
             (self.folder / written).unlink(missing_ok=True)
-        code, screen = Program(self.options.suffuse, self.options.mpirun, ranks).run(text, self.folder, name, timeout)
+        code, screen = run(Program(self.options.suffuse, self.options.mpirun, ranks))
         self.guards += [line[line.index(":") + 1:].strip() for line in screen.splitlines() if re.match(r"(suffuse: error|lbm run): .*(must|note|warning)", line)]
         return code, screen
 
+    def run(self, text, ranks=1, name="scene", timeout=600):
+        return self.watch(lambda program: program.run(text, self.folder, name, timeout), ranks)
+
     def must_run(self, text, ranks=1, name="scene", timeout=600):
-        code, screen = self.run(text, ranks, name, timeout)
+        return self.must_end(*self.run(text, ranks, name, timeout))
+
+    def must_run_scene(self, script, variables, timeout=600):
+        """A script file with `-var` options, on one rank."""
+        words = variable_words(variables)
+        return self.must_end(*self.watch(lambda program: program.run_file(script, self.folder, words, "log.scene", timeout), 1))
+
+    def must_end(self, code, screen):
         self.expect(code == 0, f"ended with code {code}:\n{screen[-2500:]}")
         return screen
 

@@ -77,6 +77,11 @@ def read_sample(restart, before="", friction=0.3):
         "timestep 8e-7\nthermo_modify lost error norm no\n"
 
 
+def variable_words(variables):
+    """As options of the command line."""
+    return [str(word) for name, value in variables.items() for word in ("-var", name, value)]
+
+
 class Program:
     """`suffuse` under mpirun."""
 
@@ -92,8 +97,7 @@ class Program:
 
     def run_scene(self, script, folder, variables, timeout=400):
         """Runs a script file with `-var` options; returns the screen text."""
-        words = [str(word) for name, value in variables.items() for word in ("-var", name, value)]
-        code, screen = self.run_file(script, folder, words, "log.scene", timeout)
+        code, screen = self.run_file(script, folder, variable_words(variables), "log.scene", timeout)
         if code != 0:
             sys.exit(f"{script} ended with code {code}:\n{screen[-3000:]}")
         return screen
