@@ -181,11 +181,15 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Fluidisation
   if (run.of_all_grains)
     rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
              "with those that stick out above the height of the layers");
-  if (result.stress && result.stress->slope < 0)
+  if (result.vanishes)
     rows.add(
-        "critical gradient, stress vanishes", "i_cr", result.stress->root(), "-", "line of sigma' over i",
-        fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / result.stress->root(),
-                    distance(run, result.stress->root())));
+        "critical gradient, stress vanishes", "i_cr", *result.vanishes, "-", "line of sigma' over i",
+        fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / *result.vanishes,
+                    distance(run, *result.vanishes)));
+  else if (result.stress)
+    rows.add("critical gradient, stress vanishes", "i_cr", std::nullopt, "-", "line of sigma' over i",
+             "not applicable: the stress of the lowest layer does not fall along a line (walls carry the bed, or "
+             "the run ends early)");
   if (result.onset) {
     const OnsetOfMotion& onset = *result.onset;
     const auto [gradient, half_width] = onset_gradient(run);
@@ -300,18 +304,17 @@ ResultRows rows_of(const FluidisationOptions& options, const Run& run, const Num
   return rows;
 }
 
-/// As scripts take them.
+/// As scripts take them: 0 where the stress has no gradient at which it vanishes.
 Record variables_of(const Run& run, const NumberTable& table) {
   const auto first_of = [&](const std::vector<double>* column) {
     return column != nullptr ? std::optional(column->front()) : std::nullopt;
   };
   const auto coordination = table.numbered("coordination_layer_");
-  const auto& stress = run.result.stress;
   return {{"measured_porosity", run.record.porosity},
           {"measured_sauter", first_of(table.find("sauter_diameter_m"))},
           {"conductivity", run.result.flow.slope},
           {"samples", static_cast<double>(run.result.flow.points)},
-          {"stress_gradient", stress && stress->slope < 0 ? std::optional(stress->root()) : std::nullopt},
+          {"stress_gradient", run.result.vanishes.value_or(0)},
           {"coordination_top", coordination.empty() ? std::nullopt : first_of(coordination.front())},
           {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
 }

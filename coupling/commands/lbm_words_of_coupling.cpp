@@ -75,7 +75,7 @@ Line solid_line() {
       {"noble_torczynski", lbm::SolidWeighting::noble_torczynski},
       {"viscosity_independent", lbm::SolidWeighting::viscosity_independent}};
   const NumberWord coefficient{
-      "coefficient", "K", "", between(1e-3, kLargestCoefficient),
+      "coefficient", "K", "", between(1e-3, kSafeCoefficient),
       "of the viscosity-independent weighting: `auto` calibrated by the diameter and by "
       "the pore at each cell, or the same everywhere"};
   const NumberWord remap{"remap", "SHIFT", "cells", positive_up_to(0.1),

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "coupled_setup.h"
 #include "grain_arithmetic.h"
 #include "suffuse/common/error.h"
+#include "suffuse/coupling/hydrodynamic_load.h"
 #include "suffuse/lbm/health.h"
 
 namespace suffuse::coupling {
@@ -60,13 +62,12 @@ CoupledSimulation::CoupledSimulation(const CoupledSettings& settings, const lbm:
       pores_(fluid_.instruction_set(), cells_, decomposition.local_box()),
       law_(law_of(settings_.solids)),
       substeps_(checked_substeps(settings.substeps, units_, grains.time_step())) {
-  mapping_.set_held(effects_.motion == Switch::off);
   set_pressure_gradient(settings.pressure_gradient);
 }
 
 void CoupledSimulation::set_effects(const EffectSettings& effects) {
   effects_ = effects;
-  mapping_.set_held(effects.motion == Switch::off);
+  coefficients_.clear();  // their coefficients are cut otherwise where nothing moves them
   if (method_) return;
   lbm::CollisionSettings collision = collision_with(effects, settings_.fluid.collision);
   collision.relaxation_time = units_.relaxation_time();
@@ -191,10 +192,21 @@ void CoupledSimulation::survey(const GrainArrays& grains) {
   ++surveys_;
 }
 
+CoupledSimulation::Coefficients CoupledSimulation::coefficients_of(double radius, double mass) const {
+  if (!settings_.solids.automatic_coefficient)
+    return {radius, mass, settings_.solids.cells.coefficient, kSafeCoefficient};
+  const double cells = radius / units_.spacing();
+  const double displaced = units_.density() * sphere_volume(radius);
+  const double ratio =
+      effects_.motion == Switch::off ? std::numeric_limits<double>::infinity() : mass / displaced;
+  return {radius, mass, law_.of_sphere(2 * cells), largest_coefficient(cells, ratio)};
+}
+
 void CoupledSimulation::read_spheres(const GrainArrays& grains) {
   const double length = 1 / units_.spacing(), speed = units_.velocity_to_lattice(1.),
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
+  coefficients_.resize(spheres_.size());
   double finite = 0;  // 0 times a number, unless it is none
   for (int n = 0; n < grains.total; ++n) {
     LatticeSphere& sphere = spheres_[static_cast<std::size_t>(n)];
@@ -207,8 +219,11 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
     sphere.radius = grains.radius[n] * length;
     for (double& spin : sphere.angular_velocity) spin *= share_of_arms(sphere.radius);
     sphere.id = grains.id[n];
-    sphere.coefficient = settings_.solids.automatic_coefficient ? law_.of_sphere(2 * sphere.radius)
-                                                                : settings_.solids.cells.coefficient;
+    Coefficients& known = coefficients_[static_cast<std::size_t>(n)];
+    if (known.radius != grains.radius[n] || known.mass != grains.mass[n])
+      known = coefficients_of(grains.radius[n], grains.mass[n]);
+    sphere.coefficient = known.of_sphere;
+    sphere.largest_coefficient = known.largest;
   }
   spheres_finite_ = finite == 0;
 }

@@ -65,7 +65,7 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
     mapped.linear_offset = linear_offset(sphere.radius);
   mapped.radius = radius;
   mapped.coefficient = static_cast<float>(sphere.coefficient);
-  mapped.largest_coefficient = static_cast<float>(largest_coefficient(sphere.radius, held_grains_));
+  mapped.largest_coefficient = static_cast<float>(sphere.largest_coefficient);
   for (int a = 0; a < 3; ++a) {
     mapped.position[a] = sphere.position[a];
     mapped.velocity[a] = static_cast<float>(sphere.velocity[a]);
@@ -95,12 +95,6 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
   mapped.z_end = outside ? begin[2] : end[2];
 }
 
-void SolidMapping::set_held(bool held) {
-  if (held == held_grains_) return;
-  held_grains_ = held;
-  forget();
-}
-
 bool SolidMapping::same_list(const std::vector<LatticeSphere>& spheres) const {
   if (spheres.size() != placed_.size() || mapped_.size() != placed_.size())
     return false;  // forgotten: mapped alone
@@ -124,7 +118,8 @@ bool SolidMapping::moved(const LatticeSphere& now, const LatticeSphere& then) co
           settings_.remap_velocity))
       return true;
   }
-  return std::abs(now.coefficient - then.coefficient) > 1e-3 * then.coefficient;
+  return std::abs(now.coefficient - then.coefficient) > 1e-3 * then.coefficient ||
+         now.largest_coefficient != then.largest_coefficient;
 }
 
 void SolidMapping::mark(const MappedSphere& mapped) {
@@ -260,7 +255,7 @@ void SolidMapping::set_closed(const std::vector<std::uint8_t>& closed) {
 
 void SolidMapping::cover_closed(const lbm::RowBlock& block) const {
   if (closed_.empty()) return;
-  const float strength = settings_.cells.own_coefficients ? static_cast<float>(kLargestCoefficient) : 1;
+  const float strength = settings_.cells.own_coefficients ? static_cast<float>(kSafeCoefficient) : 1;
   for (int y = block.begin_y; y < block.end_y; ++y)
     for (int x = 0; x < box_.extent(0); ++x) {
       if (closed_[static_cast<std::size_t>(x + box_.extent(0) *

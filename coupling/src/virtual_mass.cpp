@@ -13,7 +13,7 @@ namespace suffuse::coupling {
 
 namespace {
 /// k of the viscosity-independent weighting where it is found cell by cell, for spheres of about a cell.
-constexpr double kUsualCoefficient = kLargestCoefficient;
+constexpr double kUsualCoefficient = kSafeCoefficient;
 /// In the pores of a bed the answer to a grain's turning is some times that of a lone sphere: there its
 /// cells' coefficient is largest.
 constexpr double kAmongNeighbours = 4;

@@ -66,7 +66,7 @@ std::vector<ExpectedValue> read_expected_values(std::istream& file, const std::s
 std::string comparison_table(const std::vector<MeasuredValue>& measured,
                              const std::vector<ExpectedValue>& expected, std::string_view case_name) {
   constexpr const char* row = "{:<36} {:>12} {:>12} {:>10} {:>4} {:>9}  {}\n";
-  const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+  const auto number = [](std::optional<double> value) { return value ? fmt::format("{:.5g}", *value) : "-"; };
   std::string table =
       fmt::format(row, "quantity", "measured", "expected", "allowed", "ok", "diff %", "source");
   for (const MeasuredValue& m : measured) {
@@ -84,9 +84,9 @@ std::string comparison_table(const std::vector<MeasuredValue>& measured,
     const std::string label =
         match->unit == "-" ? m.quantity : fmt::format("{} [{}]", m.quantity, match->unit);
     const std::string difference =
-        match->value != 0 ? fmt::format("{:+.1f}", 100 * (m.value / match->value - 1)) : std::string("-");
+        m.value && match->value != 0 ? fmt::format("{:+.1f}", 100 * (*m.value / match->value - 1)) : "-";
     const bool judged = match->tolerance > 0;
-    const bool within = std::abs(m.value - match->value) <= match->tolerance;
+    const bool within = m.value && std::abs(*m.value - match->value) <= match->tolerance;
     table += fmt::format(row, label, number(m.value), number(match->value),
                          judged ? fmt::format("{:.3g}", match->tolerance) : "-",
                          !judged  ? "-"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,13 +25,14 @@ std::vector<ExpectedValue> read_expected_values(std::istream& file, const std::s
 
 struct MeasuredValue {
   std::string quantity;
-  double value = 0;
+  std::optional<double> value;  ///< none where the run has no such value
 };
 
 /// A table with one row for each measured quantity: measured, expected, the difference that is allowed and
 /// whether it is kept, difference in %, source. What the file gives for the case `any` holds for every case
 /// for which it does not give the quantity. Quantities that the file does not give for the case appear
-/// without an expectation, and those without a tolerance are not judged.
+/// without an expectation, and those without a tolerance are not judged. One that has no value keeps no
+/// tolerance.
 std::string comparison_table(const std::vector<MeasuredValue>& measured,
                              const std::vector<ExpectedValue>& expected, std::string_view case_name);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace {
 std::string results_text(const std::string& case_name, const std::vector<suffuse::MeasuredValue>& values) {
   std::string text = "case,quantity,value\n";
   for (const auto& value : values)
-    text += fmt::format("{},{},{:.10g}\n", case_name, value.quantity, value.value);
+    text += fmt::format("{},{},{}\n", case_name, value.quantity,
+                        value.value ? fmt::format("{:.10g}", *value.value) : "");
   return text;
 }
 
@@ -37,7 +39,10 @@ void CommandReport::command(int narg, char** arg) {
   std::vector<suffuse::MeasuredValue> measured;
   while (!reader.done()) {
     const std::string name = reader.keyword();
-    measured.push_back({name, reader.number(name)});
+    if (reader.accept("none"))
+      measured.push_back({name, std::nullopt});
+    else
+      measured.push_back({name, reader.number(name)});
   }
 
   // Every rank reads, so that every rank throws.

@@ -63,36 +63,53 @@ std::optional<OnsetOfMotion> onset_of(std::span<const double> gradient, std::spa
   return onset;
 }
 
-/// Where the stress vanishes by its line; none where it does not fall.
-std::optional<double> vanishing(const std::optional<LineFit>& line) {
-  if (!line || !(line->slope < 0)) return std::nullopt;
-  return line->root();
-}
+/// A run's states: those that lines are fitted to, and how many of the first are at rest.
+struct Course {
+  std::span<const FlowState> states;
+  std::vector<std::size_t> window;
+  std::size_t at_rest = 0;
+};
 
 /// σ'/σ'_0 of a layer; empty where it is not known.
-std::vector<double> stress_ratio(std::span<const FlowState> states, std::size_t layer,
-                                 std::span<const std::size_t> window) {
+std::vector<double> stress_ratio(std::span<const FlowState> states, std::size_t layer) {
   if (states.front().stress.empty() || !(states.front().stress[layer] > 0)) return {};
   const double reference = states.front().stress[layer];
-  return picked(series_of(states, [&](const FlowState& s) { return s.stress[layer] / reference; }), window);
+  return series_of(states, [&](const FlowState& s) { return s.stress[layer] / reference; });
 }
 
-std::vector<double> lifting_gradients(std::span<const FlowState> states, std::size_t layer,
-                                      std::span<const std::size_t> window) {
-  return picked(series_of(states, [&](const FlowState& s) { return lifting_gradient(s.gradient, layer); }),
-                window);
+std::vector<double> lifting_gradients(std::span<const FlowState> states, std::size_t layer) {
+  return series_of(states, [&](const FlowState& s) { return lifting_gradient(s.gradient, layer); });
 }
 
-LayerFluidisation measure_layer(std::span<const FlowState> states, std::size_t layer,
-                                std::span<const std::size_t> window, std::span<const double> velocity) {
+std::optional<LineFit> fit_in_window(const Course& course, const std::vector<double>& x,
+                                     const std::vector<double>& y) {
+  return fit_line(picked(x, course.window), picked(y, course.window));
+}
+
+/// Where the stress vanishes by its line; none where it does not fall, or not along that line.
+std::optional<double> vanishing(const Course& course, const std::optional<LineFit>& line,
+                                const std::vector<double>& gradient, const std::vector<double>& ratio) {
+  if (!line || !(line->slope < 0)) return std::nullopt;
+  const double root = line->root();
+  double largest = 0;
+  for (std::size_t k = course.window.front(); k < course.at_rest; ++k) {
+    largest = std::max(largest, gradient[k]);
+    if (std::abs(ratio[k] - std::max(0., line->at(gradient[k]))) > kBentStress) return std::nullopt;
+  }
+  if (root > kFarGradient * largest) return std::nullopt;
+  return root;
+}
+
+LayerFluidisation measure_layer(const Course& course, std::size_t layer, std::span<const double> velocity) {
   LayerFluidisation result;
-  const auto own = picked(series_of(states, [&](const FlowState& s) { return s.gradient[layer]; }), window);
-  result.flow = fit_line(own, velocity);
-  const std::vector<double> ratio = stress_ratio(states, layer, window);
+  const auto own = series_of(course.states, [&](const FlowState& s) { return s.gradient[layer]; });
+  result.flow = fit_line(picked(own, course.window), velocity);
+  const std::vector<double> ratio = stress_ratio(course.states, layer);
   if (ratio.empty()) return result;
-  result.stress = fit_line(own, ratio);
-  result.local = vanishing(result.stress);
-  result.by_lifting = vanishing(fit_line(lifting_gradients(states, layer, window), ratio));
+  result.stress = fit_in_window(course, own, ratio);
+  result.local = vanishing(course, result.stress, own, ratio);
+  const std::vector<double> lifting = lifting_gradients(course.states, layer);
+  result.by_lifting = vanishing(course, fit_in_window(course, lifting, ratio), lifting, ratio);
   return result;
 }
 
@@ -210,7 +227,8 @@ Fluidisation measure_fluidisation(std::span<const FlowState> states, double crit
   const auto gradient = series_of(states, [](const FlowState& s) { return bed_gradient(s.gradient); });
   const double low = (settings.window_low - settings.window_slack) * critical;
   const double high = (settings.window_high + settings.window_slack) * critical;
-  const std::vector<std::size_t> window = window_of(gradient, low, high);
+  Course course{states, window_of(gradient, low, high), states.size()};
+  const std::vector<std::size_t>& window = course.window;
   const auto x = picked(gradient, window);
   const double spread =
       x.empty() ? 0 : *std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end());
@@ -226,16 +244,20 @@ Fluidisation measure_fluidisation(std::span<const FlowState> states, double crit
   result.largest_gradient = largest;
   const auto velocity = picked(series_of(states, [](const FlowState& s) { return s.velocity; }), window);
   result.flow = *fit_line(x, velocity);
-  for (std::size_t layer = 0; layer < states.front().gradient.size(); ++layer)
-    result.layers.push_back(measure_layer(states, layer, window, velocity));
-  const std::size_t lowest = states.front().gradient.size() - 1;
-  if (const auto ratio = stress_ratio(states, lowest, window); !ratio.empty())
-    result.stress = fit_line(lifting_gradients(states, lowest, window), ratio);
   auto rise = series_of(states, [&](const FlowState& s) { return s.centre / height; });
-  const auto elastic = fit_parabola(x, picked(rise, window));
-  if (!elastic) return result;
-  for (std::size_t k = 0; k < rise.size(); ++k) rise[k] -= elastic->at(gradient[k]);
-  result.onset = onset_of(gradient, rise, elastic->scatter, settings);
+  if (const auto elastic = fit_parabola(x, picked(rise, window))) {
+    for (std::size_t k = 0; k < rise.size(); ++k) rise[k] -= elastic->at(gradient[k]);
+    result.onset = onset_of(gradient, rise, elastic->scatter, settings);
+  }
+  if (result.onset) course.at_rest = result.onset->state;
+  for (std::size_t layer = 0; layer < states.front().gradient.size(); ++layer)
+    result.layers.push_back(measure_layer(course, layer, velocity));
+  const std::size_t lowest = states.front().gradient.size() - 1;
+  if (const auto ratio = stress_ratio(states, lowest); !ratio.empty()) {
+    const std::vector<double> lifting = lifting_gradients(states, lowest);
+    result.stress = fit_in_window(course, lifting, ratio);
+    result.vanishes = vanishing(course, result.stress, lifting, ratio);
+  }
   return result;
 }
 

@@ -13,6 +13,9 @@ namespace suffuse::coupling {
 
 namespace {
 
+/// Density of grains over that of water, where they count as movable.
+constexpr double kQuartz = 2.65;
+
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::stringstream stream(text);
@@ -84,6 +87,7 @@ Scene make_scene(const Packing& packing, double diameter, const DragRun& run) {
             grain.position[a] -= edge * std::floor(grain.position[a] / edge);
           }
           grain.radius = scaled.edge * packing.radii[n];
+          grain.density = kQuartz;
           solid += sphere_volume(grain.radius);
           surface += 4 * std::numbers::pi * grain.radius * grain.radius;
           scene.list.push_back(grain);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "prescribed_grains.h"
@@ -282,7 +283,7 @@ TEST_CASE("Pores are surveyed when a grain comes or has moved, and only then") {
   CHECK(coefficient_in(simulation, facing) < apart + 1e-6);
 }
 
-TEST_CASE("Coefficients of grains that may move are cut lower than those of held ones") {
+TEST_CASE("Coefficients of grains that may move are cut by what they weigh") {
   const auto largest_in = [](CoupledSimulation& simulation) {
     double largest = 0;
     lbm::for_each_cell(simulation.fluid().decomposition().local_box(), [&](int x, int y, int z) {
@@ -292,21 +293,34 @@ TEST_CASE("Coefficients of grains that may move are cut lower than those of held
   };
   CoupledSettings settings = cells_as_metres();
   settings.solids.law = CoefficientLaw{{2, 0, 1e6, 0}};
-  PrescribedGrains grains(grains_at({Vec3(6, 8, 8), Vec3(20, 8, 8)}, {2, 0.9}), Vec3(30, 16, 16),
-                          {true, true, true}, 1.);
+  std::vector<PrescribedGrains::Grain> list = grains_at({Vec3(6, 8, 8), Vec3(20, 8, 8)}, {2, 0.9});
+  for (PrescribedGrains::Grain& grain : list) grain.density = 2.65 * settings.units.density;
+  PrescribedGrains grains(list, Vec3(30, 16, 16), {true, true, true}, 1.);
   CoupledSimulation simulation(settings, lbm::Decomposition::balanced(MPI_COMM_SELF, {30, 16, 16}),
                                Vec3::Zero(), grains);
   simulation.map();
-  CHECK(largest_in(simulation) == Approx(kLargestCoefficient).epsilon(1e-3));
+  CHECK(largest_in(simulation) == Approx(42 * 2.15).epsilon(1e-3));
   EffectSettings held;
   held.motion = Switch::off;
   simulation.set_effects(held);
   simulation.map();
-  CHECK(largest_in(simulation) == Approx(kLargestOfHeld).epsilon(1e-3));
-  CHECK(coefficient_in(simulation, {20, 8, 8}) == Approx(kLargestCoefficient).epsilon(1e-3));
+  CHECK(largest_in(simulation) == Approx(kLargestCoefficient).epsilon(1e-3));
+  CHECK(coefficient_in(simulation, {20, 8, 8}) == Approx(kSafeCoefficient).epsilon(1e-3));
   simulation.set_effects({});
   simulation.map();
-  CHECK(largest_in(simulation) == Approx(kLargestCoefficient).epsilon(1e-3));
+  CHECK(largest_in(simulation) == Approx(42 * 2.15).epsilon(1e-3));
+  grains.list[0].density *= 2;  // another grain, for all its size says
+  simulation.map();
+  CHECK(largest_in(simulation) == Approx(42 * 4.8).epsilon(1e-3));
+
+  constexpr double quartz = 2.65, nothing_moves_it = std::numeric_limits<double>::infinity();
+  CHECK(largest_coefficient(0.9, nothing_moves_it) == kSafeCoefficient);
+  CHECK(largest_coefficient(1, nothing_moves_it) == kLargestCoefficient);
+  CHECK(largest_coefficient(2.8, quartz) == Approx(42 * 2.15));
+  CHECK(largest_coefficient(4, quartz) == Approx(5.1 * 16 * 2.15));
+  CHECK(largest_coefficient(5, quartz) == kLargestCoefficient);
+  CHECK(largest_coefficient(1, 1.2) == Approx(42 * 0.7));
+  CHECK(largest_coefficient(1, 0.3) == Approx(10));
 }
 
 TEST_CASE("A coefficient that is given stays") {

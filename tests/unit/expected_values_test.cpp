@@ -1,6 +1,7 @@
 #include "laws/expected_values.h"
 
 #include <catch2/catch.hpp>
+#include <optional>
 #include <sstream>
 
 #include "suffuse/common/error.h"
@@ -36,7 +37,7 @@ TEST_CASE("the comparison gives the difference in per cent, and a dash for what 
 }
 
 TEST_CASE("the comparison says which values keep their tolerance") {
-  const auto said = [](double measured, double tolerance) {
+  const auto said = [](std::optional<double> measured, double tolerance) {
     const std::string table =
         comparison_table({{"porosity", measured}}, {{"A", "porosity", 0.2, tolerance, "-", "text"}}, "A");
     return std::pair(table.find(" yes ") != std::string::npos, table.find(" NO ") != std::string::npos);
@@ -44,6 +45,8 @@ TEST_CASE("the comparison says which values keep their tolerance") {
   CHECK(said(0.21, 0.011) == std::pair(true, false));
   CHECK(said(0.19, 0.009) == std::pair(false, true));
   CHECK(said(0.19, 0) == std::pair(false, false));
+  CHECK(said(std::nullopt, 0.1) == std::pair(false, true));  // a run without the value keeps no tolerance
+  CHECK(said(std::nullopt, 0) == std::pair(false, false));
 }
 
 TEST_CASE("what is expected of any case holds where a case has nothing of its own") {

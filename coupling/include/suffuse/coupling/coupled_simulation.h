@@ -174,6 +174,12 @@ class CoupledSimulation {
   void hand_method_loads_over(const GrainArrays& grains);
   int hand_loads_over();
   void read_spheres(const GrainArrays& grains);
+  /// What a sphere's cells need of it beside its place: follows from radius (m) and mass (kg).
+  struct Coefficients {
+    double radius = -1, mass = 0;
+    double of_sphere = 1, largest = 1;
+  };
+  Coefficients coefficients_of(double radius, double mass) const;
   bool survey_due(const GrainArrays& grains);
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
@@ -205,6 +211,7 @@ class CoupledSimulation {
   bool stepped_ = false;                ///< since this simulation began
   long loads_step_ = kNever;            ///< fluid step of the loads in the port's memory
   std::vector<LatticeSphere> spheres_;  ///< as they are; mapping_ remembers how the cells have them
+  std::vector<Coefficients> coefficients_;  ///< of these spheres, where they are still of this size and mass
   bool spheres_finite_ = true;          ///< of this rank: every position, velocity and spin is a number
   std::string acting_walls_;
   std::vector<GrainSums> sums_;  ///< of the last loads that were formed

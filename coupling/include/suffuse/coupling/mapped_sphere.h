@@ -9,13 +9,23 @@ enum class FractionMethod {
   subcells,  ///< share of n^3 points inside (Appendix C's code: 5^3)
 };
 
-/// The coefficient of a sphere and its pores is cut here: strengths add up exactly in any order up to there.
-/// Cut at 240, spheres that the water may move answer it faster than they weigh and gain speed without bound
-/// (fines of 2 to 5 cells in dense gap-graded soils, case fines_in_dense_pores); and one whose radius is
-/// below a cell is a point in the water that no survey of pores sees well.
-inline constexpr double kLargestOfHeld = 240, kLargestCoefficient = 60;
-inline constexpr double largest_coefficient(double radius, bool held) {
-  return held && radius >= 1 ? kLargestOfHeld : kLargestCoefficient;
+/// The coefficient of a sphere and its pores is cut at most at the first: strengths add up exactly in any
+/// order up to there. Grains of quartz stand the second at any radius.
+inline constexpr double kLargestCoefficient = 240, kSafeCoefficient = 60;
+
+/// Where the coefficient of a sphere of `radius` cells is cut that weighs `density_ratio` times its water
+/// (infinity: nothing moves it). One that may move is given more by its cells in a step than it can follow,
+/// and gains speed without bound, where their coefficient is too large for its weight: in the pores of dense
+/// gap-graded soils about 70 (density_ratio - 0.5) at radii of 1 to 2.8, 100 at 3.5, 240 and more at 4
+/// (docs/decisions/solid-operator.md; case fines_in_dense_pores). One whose radius is below a cell is a point
+/// in the water that no survey of pores sees well.
+inline constexpr double largest_coefficient(double radius, double density_ratio) {
+  if (radius < 1) return kSafeCoefficient;
+  constexpr double least = 10;  // of what floats
+  const double of_size = 5.1 * radius * radius;
+  const double stood = (of_size < 42 ? 42 : of_size) * (density_ratio - 0.5);
+  if (!(stood > least)) return least;
+  return stood < kLargestCoefficient ? stood : kLargestCoefficient;
 }
 
 /// A sphere in lattice units: cells of the whole box, cell (0,0,0) reaching from 0 to 1; cells a step.
@@ -25,6 +35,7 @@ struct LatticeSphere {
   double velocity[3]{};
   double angular_velocity[3]{};  ///< radians a step
   double coefficient = 1;        ///< the sphere's part of k, used with own_coefficients
+  double largest_coefficient = kSafeCoefficient;  ///< where k is cut
   int id = 0;
 };
 

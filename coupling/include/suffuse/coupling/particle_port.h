@@ -16,7 +16,7 @@ struct GrainArrays {
   const double* velocity = nullptr;          ///< 3 total, m/s
   const double* angular_velocity = nullptr;  ///< 3 total, rad/s
   const double* radius = nullptr;            ///< total, m
-  const double* mass = nullptr;              ///< owned, kg
+  const double* mass = nullptr;              ///< total, kg
   const int* id = nullptr;                   ///< total; a copy has its owner's
 };
 

@@ -34,7 +34,7 @@ enum class Switch { off, on, automatic };
 /// CoupledSimulation by itself, automatic ones that need no velocity (buoyancy, rotation) act and the others
 /// are left as the collision's settings have them.
 struct EffectSettings {
-  Switch motion = Switch::on;              ///< off: nothing moves the grains (SolidMapping::set_held)
+  Switch motion = Switch::on;              ///< off: nothing moves the grains (largest_coefficient)
   Switch turbulence = Switch::automatic;   ///< Smagorinsky's eddy viscosity
   Switch comoving = Switch::automatic;     ///< `trt_comoving` in place of `trt`
   Switch lubrication = Switch::automatic;  ///< forces in gaps that the lattice does not resolve

@@ -32,9 +32,6 @@ class SolidMapping {
   std::size_t place(const std::vector<LatticeSphere>& spheres);
   /// The next `place` takes all spheres for new ones.
   void forget() { placed_.clear(); }
-  /// Whether nothing moves the spheres, whose coefficients may then be larger (largest_coefficient); not so
-  /// before.
-  void set_held(bool held);
 
   /// What the pores add to the spheres' coefficients in each cell, laid out as the fractions; null: nothing.
   /// With own_coefficients only. All cells wait to be written then.
@@ -97,7 +94,6 @@ class SolidMapping {
   std::vector<MappedSphere> mapped_;
   std::vector<char> dirty_;  ///< planes whose cells wait to be written
   bool stale_ = false;
-  bool held_grains_ = false;
   std::vector<int> order_;        ///< of `mapped_` by y_begin
   std::vector<int> first_slice_;  ///< of each block, in `slices_`; one more at the end
   std::vector<int> slices_;       ///< the spheres that may reach it

@@ -91,8 +91,13 @@ struct OnsetOfMotion {
   std::size_t state = 0;       ///< index of the first state in motion
 };
 
+/// A line of σ'/σ'_0 says where the stress vanishes if the stress follows it: to within this up to the onset
+/// of motion, or as far as the run goes, and if it meets zero below kFarGradient times the largest gradient
+/// of the run. Between walls with friction the stress is bent: they carry what the window would have falling.
+inline constexpr double kBentStress = 0.1, kFarGradient = 1.5;
+
 /// A layer's own numbers. The two gradients are where the line of its stress through the window meets zero,
-/// over its own gradient (the axes of thesis Fig. 6.3) and over lifting_gradient().
+/// over its own gradient (the axes of thesis Fig. 6.3) and over lifting_gradient(): see kBentStress.
 struct LayerFluidisation {
   std::optional<LineFit> flow;              ///< velocity over its own gradient; the slope is k
   std::optional<LineFit> stress;            ///< σ'/σ'_0 over its own gradient
@@ -104,6 +109,7 @@ struct Fluidisation {
   /// σ'/σ'_0 of the lowest layer over lifting_gradient() there, nearly the gradient over the bed: the first
   /// layer to fail in the thesis (section 6.5.1), and where all grains' weight has been taken off.
   std::optional<LineFit> stress;
+  std::optional<double> vanishes;  ///< where that line meets zero, if it says so (kBentStress)
   std::optional<OnsetOfMotion> onset;
   std::vector<LayerFluidisation> layers;
   double largest_gradient = 0;  ///< over the bed
