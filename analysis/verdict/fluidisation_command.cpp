@@ -182,14 +182,14 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Fluidisation
     rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
              "with those that stick out above the height of the layers");
   if (result.vanishes)
-    rows.add(
-        "critical gradient, stress vanishes", "i_cr", *result.vanishes, "-", "line of sigma' over i",
-        fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / *result.vanishes,
-                    distance(run, *result.vanishes)));
+    rows.add("critical gradient, stress vanishes", "i_cr", *result.vanishes, "-", "line of sigma' over i",
+             fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / *result.vanishes,
+                         distance(run, *result.vanishes)));
   else if (result.stress)
-    rows.add("critical gradient, stress vanishes", "i_cr", std::nullopt, "-", "line of sigma' over i",
-             "not applicable: the stress of the lowest layer does not fall along a line (walls carry the bed, or "
-             "the run ends early)");
+    rows.add(
+        "critical gradient, stress vanishes", "i_cr", std::nullopt, "-", "line of sigma' over i",
+        "not applicable: the stress of the lowest layer does not fall along a line (walls carry the bed, or "
+        "the run ends early)");
   if (result.onset) {
     const OnsetOfMotion& onset = *result.onset;
     const auto [gradient, half_width] = onset_gradient(run);

@@ -13,13 +13,13 @@ namespace suffuse::coupling {
 ///
 ///   k = constant + single/D + crowded q + narrow q^2 + tight q^4,  q = s/6,
 ///
-/// cut at LatticeSphere::largest_coefficient, where s is the surface of grains per volume of pore around the cell,
-/// 1/cells: 1/q is the diameter of a sphere with as much surface per volume as the pore has. D q is 0.44 at
-/// the surface of a lone sphere, and 0.6 to 1.5 in the mean of packings from phi = 0.2 to 0.62. Calibrated so
-/// that the permeability of arrays and random packings is right from 5 cells a diameter on, and of packings,
-/// within some per cent, from 2.5 on (docs/decisions/solid-operator.md). Below a cell, where the survey of
-/// pores no longer sees a sphere, a point in the water: 10 (D^-3/2 - 1) is added, with which a lone sphere of
-/// 0.3 to 1 cells falls within 30 % of its speed in Stokes flow.
+/// cut at LatticeSphere::largest_coefficient, where s is the surface of grains per volume of pore around the
+/// cell, 1/cells: 1/q is the diameter of a sphere with as much surface per volume as the pore has. D q is
+/// 0.44 at the surface of a lone sphere, and 0.6 to 1.5 in the mean of packings from phi = 0.2 to 0.62.
+/// Calibrated so that the permeability of arrays and random packings is right from 5 cells a diameter on, and
+/// of packings, within some per cent, from 2.5 on (docs/decisions/solid-operator.md). Below a cell, where the
+/// survey of pores no longer sees a sphere, a point in the water: 10 (D^-3/2 - 1) is added, with which a lone
+/// sphere of 0.3 to 1 cells falls within 30 % of its speed in Stokes flow.
 struct CoefficientLaw : lbm::CoefficientTerms {
   double of_sphere(double diameter) const;
   double of_pore(double surface_per_pore) const {

@@ -206,13 +206,13 @@ class CoupledSimulation {
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
   long rested_steps_ = 0;
-  long rested_at_ = kNever;             ///< step after which the water is known to be at rest
-  bool has_flowed_ = false;             ///< it is never at rest again, to the last digit
-  bool stepped_ = false;                ///< since this simulation began
-  long loads_step_ = kNever;            ///< fluid step of the loads in the port's memory
-  std::vector<LatticeSphere> spheres_;  ///< as they are; mapping_ remembers how the cells have them
+  long rested_at_ = kNever;                 ///< step after which the water is known to be at rest
+  bool has_flowed_ = false;                 ///< it is never at rest again, to the last digit
+  bool stepped_ = false;                    ///< since this simulation began
+  long loads_step_ = kNever;                ///< fluid step of the loads in the port's memory
+  std::vector<LatticeSphere> spheres_;      ///< as they are; mapping_ remembers how the cells have them
   std::vector<Coefficients> coefficients_;  ///< of these spheres, where they are still of this size and mass
-  bool spheres_finite_ = true;          ///< of this rank: every position, velocity and spin is a number
+  bool spheres_finite_ = true;              ///< of this rank: every position, velocity and spin is a number
   std::string acting_walls_;
   std::vector<GrainSums> sums_;  ///< of the last loads that were formed
   MomentumLedger ledger_;

@@ -33,8 +33,8 @@ struct LatticeSphere {
   double position[3]{};
   double radius = 0;
   double velocity[3]{};
-  double angular_velocity[3]{};  ///< radians a step
-  double coefficient = 1;        ///< the sphere's part of k, used with own_coefficients
+  double angular_velocity[3]{};                   ///< radians a step
+  double coefficient = 1;                         ///< the sphere's part of k, used with own_coefficients
   double largest_coefficient = kSafeCoefficient;  ///< where k is cut
   int id = 0;
 };
