@@ -10,6 +10,7 @@ namespace suffuse::analysis {
 struct Entry {
   const char* name = "";
   std::optional<double> value;
+  bool scripts_take_none = false;  ///< as a variable of a script: `none` instead of a refusal
 };
 using Record = std::vector<Entry>;
 

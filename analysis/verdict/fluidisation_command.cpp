@@ -304,7 +304,7 @@ ResultRows rows_of(const FluidisationOptions& options, const Run& run, const Num
   return rows;
 }
 
-/// As scripts take them: 0 where the stress has no gradient at which it vanishes.
+/// As scripts take them; `none` where the stress has no gradient at which it vanishes.
 Record variables_of(const Run& run, const NumberTable& table) {
   const auto first_of = [&](const std::vector<double>* column) {
     return column != nullptr ? std::optional(column->front()) : std::nullopt;
@@ -314,7 +314,7 @@ Record variables_of(const Run& run, const NumberTable& table) {
           {"measured_sauter", first_of(table.find("sauter_diameter_m"))},
           {"conductivity", run.result.flow.slope},
           {"samples", static_cast<double>(run.result.flow.points)},
-          {"stress_gradient", run.result.vanishes.value_or(0)},
+          {"stress_gradient", run.result.vanishes, true},
           {"coordination_top", coordination.empty() ? std::nullopt : first_of(coordination.front())},
           {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
 }

@@ -65,11 +65,11 @@ ResultRows rows_of(const SuffusionOnset& onset, double largest) {
   return rows;
 }
 
-/// As scripts take them: 0 where a gradient was never reached.
+/// As scripts take them; `none` where a gradient was never reached.
 Record variables_of(const SuffusionOnset& onset) {
-  Record record{{"onset_inside", onset.inside.value_or(0)}, {"steepest_layer", onset.steepest_layer}};
+  Record record{{"onset_inside", onset.inside, true}, {"steepest_layer", onset.steepest_layer}};
   for (std::size_t k = 0; k < kErodedNames.size(); ++k)
-    record.push_back({kErodedNames[k], onset.eroded[k].value_or(0)});
+    record.push_back({kErodedNames[k], onset.eroded[k], true});
   return record;
 }
 
@@ -97,7 +97,7 @@ void add_suffusion(CLI::App& app) {
       ->required();
   options->outputs.add_rows(*command);
   options->outputs.add_variables(
-      *command, "file of `variable` lines for a script to include, 0 for gradients never reached");
+      *command, "file of `variable` lines for a script to include, `none` for gradients never reached");
   command->callback([options] { run(*options); });
 }
 

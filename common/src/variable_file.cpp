@@ -6,10 +6,12 @@
 
 namespace suffuse {
 
-void write_variable_file(const std::string& path, std::span<const std::pair<const char*, double>> variables,
+void write_variable_file(const std::string& path, std::span<const std::pair<const char*, std::optional<double>>> variables,
                          const std::string& who) {
   SafeFile file(path, who);
-  for (const auto& [name, value] : variables) file.write(fmt::format("variable {} equal {}\n", name, value));
+  for (const auto& [name, value] : variables)
+    file.write(value ? fmt::format("variable {} equal {}\n", name, *value)
+                     : fmt::format("variable {} string none\n", name));
   file.commit();
 }
 

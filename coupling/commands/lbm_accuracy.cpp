@@ -292,7 +292,7 @@ void write_lattice(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& settings, const std
   const double sound = settings.averaged ? incompressible : spacing / step / std::sqrt(3.);
   const std::string who = "lbm accuracy";
   on_first_rank(who, communicator_of(lmp), [&] {
-    const std::pair<const char*, double> variables[] = {
+    const std::pair<const char*, std::optional<double>> variables[] = {
         {"lattice_spacing", spacing}, {"lattice_timestep", step}, {"lattice_sound", sound}};
     write_variable_file(file, variables, who);
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -7,9 +8,9 @@
 namespace suffuse {
 
 /// A file of lines `variable NAME equal VALUE` for a LIGGGHTS script to include, whole or not there
-/// (SafeFile). Numbers with as many digits as they have. Throws UserError where it cannot be written; `who`
+/// (SafeFile); `variable NAME string none` where there is no value. Numbers with as many digits as they have. Throws UserError where it cannot be written; `who`
 /// begins the message.
-void write_variable_file(const std::string& path, std::span<const std::pair<const char*, double>> variables,
+void write_variable_file(const std::string& path, std::span<const std::pair<const char*, std::optional<double>>> variables,
                          const std::string& who);
 
 }  // namespace suffuse
