@@ -16,12 +16,10 @@ bool changed_inside(const SuffusionState& first, const SuffusionState& now) {
   return false;
 }
 
-/// 0 where the water stands still or flows back.
-double steepest_over_mean(const SuffusionState& state) {
+double mean_gradient(const SuffusionState& state) {
   const auto& layers = state.layer_gradient;
   if (layers.empty()) return 0;
-  const double mean = std::accumulate(layers.begin(), layers.end(), 0.) / static_cast<double>(layers.size());
-  return mean > 0 ? *std::max_element(layers.begin(), layers.end()) / mean : 0;
+  return std::accumulate(layers.begin(), layers.end(), 0.) / static_cast<double>(layers.size());
 }
 
 }  // namespace
@@ -30,13 +28,18 @@ SuffusionOnset suffusion_onset(std::span<const SuffusionState> states,
                                std::span<const double> eroded_shares) {
   SuffusionOnset onset;
   onset.eroded.resize(eroded_shares.size());
+  double largest = 0, largest_mean = 0;
   for (std::size_t n = 0; n < states.size(); ++n) {
     const SuffusionState& state = states[n];
-    if (!onset.inside && changed_inside(states.front(), state)) onset.inside = state.gradient;
+    largest = std::max(largest, state.gradient);
+    if (!onset.inside && changed_inside(states.front(), state)) onset.inside = largest;
     for (std::size_t k = 0; k < eroded_shares.size(); ++k)
-      if (!onset.eroded[k] && state.eroded_share >= eroded_shares[k]) onset.eroded[k] = state.gradient;
-    if (n >= states.size() / 10)
-      onset.steepest_layer = std::max(onset.steepest_layer, steepest_over_mean(state));
+      if (!onset.eroded[k] && state.eroded_share >= eroded_shares[k]) onset.eroded[k] = largest;
+    const double mean = mean_gradient(state);
+    largest_mean = std::max(largest_mean, mean);
+    if (n >= states.size() / 10 && mean > 0 && mean >= kSteadyShare * largest_mean)
+      onset.steepest_layer =
+          std::max(onset.steepest_layer, *std::ranges::max_element(state.layer_gradient) / mean);
   }
   return onset;
 }

@@ -42,6 +42,10 @@ TEST_CASE("gradients at which shares of the fines have left", "[suffusion]") {
   CHECK(*onset.eroded[0] == Approx(0.9));
   CHECK(*onset.eroded[1] == Approx(1.7));
   CHECK_FALSE(onset.eroded[2]);
+  // Of a gradient that swings the largest so far counts, not that of the moment.
+  std::vector<SuffusionState> states = washed_out();
+  states[17].gradient = 0.2;
+  CHECK(*suffusion_onset(states, shares).eroded[1] == Approx(1.6));
 }
 
 TEST_CASE("a layer that clogs is steeper than the mean", "[suffusion]") {
@@ -51,6 +55,9 @@ TEST_CASE("a layer that clogs is steeper than the mean", "[suffusion]") {
   CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1.5));
   // While the flow sets in, within the first tenth, gradients are of no steady flow.
   states[1].layer_gradient = {0.1, 0.9};
+  CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1.5));
+  // Where a gradient that swings passes zero, a layer's over the mean is no measure.
+  states[16].layer_gradient = {-0.01, 0.03};
   CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1.5));
   // Backwards flow has no steepest layer.
   for (SuffusionState& state : states) state.layer_gradient = {-1, -3};
