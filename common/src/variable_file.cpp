@@ -6,7 +6,8 @@
 
 namespace suffuse {
 
-void write_variable_file(const std::string& path, std::span<const std::pair<const char*, std::optional<double>>> variables,
+void write_variable_file(const std::string& path,
+                         std::span<const std::pair<const char*, std::optional<double>>> variables,
                          const std::string& who) {
   SafeFile file(path, who);
   for (const auto& [name, value] : variables)

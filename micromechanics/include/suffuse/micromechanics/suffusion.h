@@ -22,8 +22,8 @@ struct SuffusionOnset {
   /// Where so much of all fines had left, for each of the shares that were asked for.
   std::vector<std::optional<double>> eroded;
   /// Largest gradient of a layer over the mean of the layers, after the first tenth of the states, where that
-  /// mean is at least `kSteadyShare` of the largest so far (a gradient that swings passes zero): where a layer
-  /// clogs it rises.
+  /// mean is at least `kSteadyShare` of the largest so far (a gradient that swings passes zero): where a
+  /// layer clogs it rises.
   double steepest_layer = 0;
 };
 
