@@ -315,6 +315,7 @@ Record variables_of(const Run& run, const NumberTable& table) {
           {"conductivity", run.result.flow.slope},
           {"samples", static_cast<double>(run.result.flow.points)},
           {"stress_gradient", run.result.vanishes, true},
+          {"stress_gradient_found", run.result.vanishes ? 1. : 0.},
           {"coordination_top", coordination.empty() ? std::nullopt : first_of(coordination.front())},
           {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
 }

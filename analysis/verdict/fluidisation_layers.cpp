@@ -70,7 +70,8 @@ class StepRecord {
   double gradient(std::size_t layer, double step) const { return at_step(steps_, gradient_[layer], step); }
   std::optional<double> stress_ratio(std::size_t layer, double step) const {
     if (layer >= stress_.size()) return std::nullopt;
-    return at_step(steps_, stress_[layer], step);
+    const double ratio = at_step(steps_, stress_[layer], step);
+    return std::isfinite(ratio) ? std::optional(ratio) : std::nullopt;  // of a layer without stress at rest
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include "contacts/contact_measures.h"
 #include "files/output_options.h"
@@ -187,23 +188,34 @@ void print(const Comparison& comparison) {
   if (!row.note.empty()) fmt::print("  the thesis's row: {}\n", row.note);
 }
 
+bool same_name(const Compared& one, const Compared& other) {
+  return std::string_view(one.name) == other.name;
+}
+
 /// Of several samples of one row: their mean and how far they scatter.
 void print_mean(const std::vector<Comparison>& of_row) {
   fmt::print("{} {}: mean of {} samples and standard deviation\n", of_row[0].row->sample,
              of_row[0].row->state, of_row.size());
-  for (std::size_t q = 0; q < of_row[0].quantities.size(); ++q) {
+  // Some quantities are there for some samples only, by their fines.
+  std::vector<const Compared*> of_any;
+  for (const Comparison& comparison : of_row)
+    for (const Compared& quantity : comparison.quantities)
+      if (std::ranges::none_of(of_any, [&](const Compared* q) { return same_name(*q, quantity); }))
+        of_any.push_back(&quantity);
+  for (const Compared* quantity : of_any) {
     double sum = 0, squares = 0, n = 0;
-    for (const Comparison& comparison : of_row) {
-      if (!comparison.quantities[q].measured) continue;
-      const double value = *comparison.quantities[q].measured;
-      sum += value;
-      squares += value * value;
-      n += 1;
-    }
+    for (const Comparison& comparison : of_row)
+      for (const Compared& one : comparison.quantities) {
+        if (!one.measured || !same_name(one, *quantity)) continue;
+        sum += *one.measured;
+        squares += *one.measured * *one.measured;
+        n += 1;
+      }
     if (n < 2) continue;
     const double mean = sum / n, deviation = std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)));
-    fmt::print("  {:<22}{:>12}{:>12}   +- {:.2g}\n", of_row[0].quantities[q].name, number(mean),
-               number(of_row[0].quantities[q].thesis), deviation);
+    fmt::print("  {:<22}{:>12}{:>12}   +- {:.2g}{}\n", quantity->name, number(mean),
+               number(quantity->thesis), deviation,
+               n < static_cast<double>(of_row.size()) ? fmt::format("   ({:g} samples)", n) : "");
   }
 }
 

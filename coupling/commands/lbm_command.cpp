@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "../liggghts/force_fix.h"
 #include "../liggghts/instance.h"
 #include "../liggghts/restart_commands.h"
 #include "../liggghts/restart_instant.h"
@@ -17,6 +18,7 @@
 #include "register_styles.h"
 #include "run_price.h"
 #include "saved_set.h"
+#include "styles/fix_hydrodynamic_force.h"
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/count_text.h"
 #include "suffuse/common/error.h"
@@ -86,6 +88,7 @@ void LbmCommand::line(int narg, char** arg) {
 }
 
 void LbmCommand::clear() {
+  if (auto* fix = find_force_fix(lmp_)) fix->forget();
   simulation_.reset();
   port_.reset();
   effects_.withdraw(lmp_);

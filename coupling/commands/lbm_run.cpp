@@ -114,10 +114,11 @@ GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   now.fluid = fluid;
   if (scene_.simulation.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
   now.mach_limit = settings_.largest_mach;
-  if (grains_ > 0) now.fastest_grain = scene_.port.summary().speed;
-  if (solid_volume_ > 0)
+  const LiggghtsPort::Summary grains = scene_.port.summary();  // as they are: some may have come in or gone
+  if (grains.grains > 0) now.fastest_grain = grains.speed;
+  if (grains.solid_volume > 0)
     now.overlap =
-        scene_.simulation.overlap() * std::pow(scene_.simulation.units().spacing(), 3) / solid_volume_;
+        scene_.simulation.overlap() * std::pow(scene_.simulation.units().spacing(), 3) / grains.solid_volume;
   now.lost_grains = census_.lost();
   read_budgets(now, scene_.simulation);
   return now;
@@ -163,7 +164,6 @@ void LbmRun::begin(const RunRequest& request, std::optional<double> continue_aft
   set_values();
   const LiggghtsPort::Summary grains = scene_.port.summary();
   grains_ = grains.grains;
-  solid_volume_ = grains.solid_volume;
   for (const std::string& line : manifest(scene_.simulation, grains, effects_.states(), request.walls))
     say("lbm run: " + line);
   if (const auto note = weight_note()) say(*note);

@@ -74,7 +74,6 @@ class LbmRun final : private lbm::RunSteps {
   RunGuards guards_;
   GrainCensus census_;
   bool near_limit_ = false;   ///< the Mach number, at the last look
-  double solid_volume_ = 0;   ///< of the grains, m^3
   double fastest_grain_ = 0;  ///< m/s, of the steps that were looked at
 };
 

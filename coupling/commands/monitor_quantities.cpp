@@ -242,12 +242,13 @@ Quantity mean_force_quantity(const QuantityRequest& request, LAMMPS* lmp) {
 
 Quantity reference_quantity(const QuantityRequest& request, LAMMPS* lmp) {
   const std::vector<std::string> references = expanded_references(lmp, request.word);
+  const bool numbered = references.size() != 1 || request.word.find("[*]") != std::string::npos;
   std::vector<std::string> columns;
   for (std::size_t k = 0; k < references.size(); ++k) {
     if (request.name.empty())
       columns.push_back((request.relative ? "relative_" : "") + references[k]);
     else
-      columns.push_back(references.size() == 1 ? request.name : fmt::format("{}_{}", request.name, k + 1));
+      columns.push_back(numbered ? fmt::format("{}_{}", request.name, k + 1) : request.name);
   }
   auto first = std::make_shared<std::vector<double>>();
   return {columns,

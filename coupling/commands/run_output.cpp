@@ -109,8 +109,11 @@ void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const Ma
   });
   for (const MonitorRequest& request : settings.monitors)
     if (std::none_of(monitors_.begin(), monitors_.end(),
-                     [&](const auto& open) { return open->request().id == request.id; }))
+                     [&](const auto& open) { return open->request().id == request.id; })) {
       monitors_.push_back(std::make_unique<Monitor>(request, scene, mapped, continue_after, references_));
+      // Another monitor of this name, later, begins with its own samples.
+      std::erase_if(references_, [&](const auto& entry) { return entry.first.starts_with(request.id + ": "); });
+    }
 
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),

@@ -132,7 +132,7 @@ void RunControl::begin(std::int64_t steps) {
   if (update->ntimestep + steps > MAXBIGINT || steps > kMostSteps)
     throw_user_error({"lbm run", "time", fmt::format("{} DEM steps", steps),
                       fmt::format("be at most {} DEM steps", kMostSteps), "split it in several `lbm run`"});
-  (void)force_fix(lmp_);
+  force_fix(lmp_).set_in_water(true);
   moves_ = GrainQuestions(lmp_).anything_moves();
   announced_step_ = -1;
   update->nsteps = static_cast<int>(steps);
@@ -177,6 +177,7 @@ void RunControl::end_after(int substeps) {
 void RunControl::end() {
   if (!running_) return;
   running_ = false;
+  if (auto* fix = find_force_fix(lmp_)) fix->set_in_water(false);
   auto* update = lmp_->update;
   update->integrate->cleanup();
   update->whichflag = 0;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -85,10 +87,11 @@ void CoupledSimulation::set_pressure_gradient(const Vec3& si) {
 }
 
 void CoupledSimulation::set_faces(const lbm::FaceConditions& faces) {
-  if (method_)
-    method_->set_faces(faces_si(faces, units_));
-  else
-    fluid_.set_faces(faces);
+  if (!method_) return fluid_.set_faces(faces);
+  lbm::FaceConditions kinds;  // which are those of the lattice, and may not change
+  for (std::size_t f = 0; f < kinds.size(); ++f) kinds[f] = {faces[f].kind};
+  fluid_.set_faces(kinds);
+  method_->set_faces(faces_si(faces, units_));
 }
 
 void CoupledSimulation::set_walls(const lbm::Walls& walls, const std::string& acting) {
@@ -161,15 +164,20 @@ bool CoupledSimulation::survey_due(const GrainArrays& grains) {
   const bool in_turn = fluid_.steps() % solids.survey_every == 0;
   const double distance = solids.survey_distance * units_.spacing();
   const GrainMemory memory = grains_.memory();
-  long sums[2] = {0, grains.owned};
+  std::uint64_t sums[3] = {0, static_cast<std::uint64_t>(grains.owned), 0};
+  for (int n = 0; n < grains.owned; ++n) sums[2] += std::bit_cast<std::uint64_t>(grains.radius[n]);
   for (int n = 0; n < grains.owned && sums[0] == 0; ++n) {
     const GrainRecord& record = memory.record[n];
     const Vec3 moved = vector_at(grains.position, n) - vector_at(record.surveyed_at, 0);
     if (record.surveyed == 0 || (in_turn && moved.norm() > distance)) sums[0] = 1;
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_LONG, MPI_SUM, fluid_.decomposition().communicator());
-  const bool same_grains = surveyed_grains_ == kWhoeverIsThere || sums[1] == surveyed_grains_;
-  surveyed_grains_ = sums[1];
+  MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_UINT64_T, MPI_SUM, fluid_.decomposition().communicator());
+  const auto count = static_cast<long>(sums[1]);
+  // Sums of radii as whole numbers do not depend on the order: another sum, other grains.
+  const bool same_grains = surveyed_grains_ == kWhoeverIsThere ||
+                           (count == surveyed_grains_ && sums[2] == surveyed_radii_);
+  surveyed_grains_ = count;
+  surveyed_radii_ = sums[2];
   return sums[0] > 0 || !same_grains;
 }
 

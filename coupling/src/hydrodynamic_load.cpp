@@ -2,11 +2,18 @@
 
 namespace suffuse::coupling {
 
+double share_within(double radius, double depth) {
+  if (depth >= radius) return 1;
+  if (depth <= -radius) return 0;
+  const double cap = radius - depth;  // beyond the plane
+  return 1 - cap * cap * (3 * radius - cap) / (4 * radius * radius * radius);
+}
+
 Load surface_load(const Load& exchange, const InternalFluidMomentum& internal, const GrainState& now,
                   const GrainHistory& before, const LoadRule& rule) {
   if (!before.known) return exchange;
   Load load = exchange;
-  const double mass = rule.fluid_density * sphere_volume(now.radius);
+  const double mass = now.immersed * rule.fluid_density * sphere_volume(now.radius);
   load.force += (mass * (now.velocity - before.velocity) + internal.momentum - before.internal.momentum) /
                 rule.time_passed;
   if (now.radius < rule.spacing) return load;
@@ -25,7 +32,7 @@ Load hydrodynamic_load(const Load& surface, const GrainState& now, const GrainHi
     load.force = 0.5 * (surface.force + before.load.force);
     load.torque = 0.5 * (surface.torque + before.load.torque);
   }
-  load.force -= rule.fluid_density * sphere_volume(now.radius) * rule.buoyant_gravity;
+  load.force -= now.immersed * rule.fluid_density * sphere_volume(now.radius) * rule.buoyant_gravity;
   if (!rule.rotation) load.torque.setZero();
   return load;
 }

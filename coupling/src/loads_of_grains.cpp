@@ -59,6 +59,20 @@ void CoupledSimulation::collect_exchange(const GrainArrays& grains) {
   grains_.sum_over_copies(sums_);
 }
 
+/// Of a grain, in the water's box; one that reaches over several of its faces loses a part at each.
+double CoupledSimulation::immersed_share(const Vec3& position, double radius) const {
+  const lbm::FaceConditions& faces = fluid_.settings().faces;
+  double share = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto axis = static_cast<Eigen::Index>(a);
+    const double low = position[axis] - origin_[axis],
+                 high = fluid_.decomposition().cells()[a] * units_.spacing() - low;
+    if (faces[2 * a].kind != lbm::FaceKind::periodic) share *= share_within(radius, low);
+    if (faces[2 * a + 1].kind != lbm::FaceKind::periodic) share *= share_within(radius, high);
+  }
+  return share;
+}
+
 void CoupledSimulation::hand_over(const GrainArrays& grains) {
   LoadRule rule;
   rule.fluid_density = units_.density();
@@ -76,9 +90,16 @@ void CoupledSimulation::hand_over(const GrainArrays& grains) {
     const Load exchange{vector_at(sums.force, 0), vector_at(sums.torque, 0)};
     const InternalFluidMomentum internal{vector_at(sums.internal_fluid_momentum, 0),
                                          vector_at(sums.internal_fluid_spin, 0)};
+    const double immersed = immersed_share(vector_at(grains.position, n), grains.radius[n]);
     const GrainState now{grains.radius[n], vector_at(grains.velocity, n),
-                         vector_at(grains.angular_velocity, n)};
+                         vector_at(grains.angular_velocity, n), immersed};
     GrainRecord& record = memory.record[n];
+    if (immersed == 0) {
+      std::fill_n(memory.load + 6 * n, 6, 0.);
+      forget_foreseen(record);
+      record.known = 0;
+      continue;
+    }
     const GrainHistory before = history_of(record, follows);
     const Load surface = surface_load(exchange, internal, now, before, rule);
     const Load load = hydrodynamic_load(surface, now, before, rule);
@@ -106,6 +127,7 @@ void CoupledSimulation::foresee() {
   const bool turning = effects_.rotation != Switch::off;
   for (int n = 0; n < grains.owned; ++n) {
     GrainRecord& record = memory.record[n];
+    if (record.known == 0) continue;  // dry
     const double radius = grains.radius[n], mass = grains.mass[n];
     const VirtualInertia added = virtual_inertia(virtual_rule_, radius, mass);
     const double moment = micromechanics::sphere_inertia(mass, radius);

@@ -123,6 +123,7 @@ void FixHydrodynamicForce::finish_setup() {
 /// Without the drag: where the grain has the velocity that it refers to. What is returned is that of an
 /// interval.
 FixHydrodynamicForce::Addition FixHydrodynamicForce::load_alone(int i) const {
+  if (!in_water_) return {{}, {}, 1, 1, false};
   const GrainRecord& record = records_[static_cast<std::size_t>(i)];
   Addition ours;
   for (int a = 0; a < 3; ++a) {
@@ -193,6 +194,10 @@ void FixHydrodynamicForce::pre_final_integrate() {
       atom->torque[i][a] *= ours.torque_share;
     }
   }
+}
+
+void FixHydrodynamicForce::forget() {
+  for (int i = 0; i < atom->nlocal; ++i) set_arrays(i);
 }
 
 void FixHydrodynamicForce::loads_changed() {

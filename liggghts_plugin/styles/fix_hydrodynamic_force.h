@@ -74,6 +74,12 @@ class FixHydrodynamicForce : public Fix {
   void loads_changed();
   void interval_over();
 
+  /// The loads act from here on, or no longer: a plain `run` moves grains without water. They stay with the
+  /// grains, for dumps, restart files and the run that goes on.
+  void set_in_water(bool in_water) { in_water_ = in_water; }
+  /// There is no fluid any more that loads and records could be of.
+  void forget();
+
   /// Copies velocities and angular velocities of owned grains to their ghosts. LIGGGHTS leaves the ghosts'
   /// half a step behind. Collective.
   void update_ghost_velocities();
@@ -103,6 +109,7 @@ class FixHydrodynamicForce : public Fix {
   std::vector<Fix*> constraints_;  // of the script, in their order
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
   bool stale_ = true;              // grains have changed places since then
+  bool in_water_ = false;
   bool in_interval_ = false;       // between a fluid step and the next
   bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;

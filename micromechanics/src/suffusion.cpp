@@ -36,10 +36,10 @@ SuffusionOnset suffusion_onset(std::span<const SuffusionState> states,
     for (std::size_t k = 0; k < eroded_shares.size(); ++k)
       if (!onset.eroded[k] && state.eroded_share >= eroded_shares[k]) onset.eroded[k] = largest;
     const double mean = mean_gradient(state);
-    largest_mean = std::max(largest_mean, mean);
-    if (n >= states.size() / 10 && mean > 0 && mean >= kSteadyShare * largest_mean)
-      onset.steepest_layer =
-          std::max(onset.steepest_layer, *std::ranges::max_element(state.layer_gradient) / mean);
+    largest_mean = std::max(largest_mean, std::abs(mean));
+    if (n < states.size() / 10 || mean == 0 || std::abs(mean) < kSteadyShare * largest_mean) continue;
+    for (const double gradient : state.layer_gradient)  // along the flow, up or down
+      onset.steepest_layer = std::max(onset.steepest_layer, gradient / mean);
   }
   return onset;
 }

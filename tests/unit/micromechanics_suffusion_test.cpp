@@ -59,8 +59,8 @@ TEST_CASE("a layer that clogs is steeper than the mean", "[suffusion]") {
   // Where a gradient that swings passes zero, a layer's over the mean is no measure.
   states[16].layer_gradient = {-0.01, 0.03};
   CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1.5));
-  // Backwards flow has no steepest layer.
+  // Water that flows down has negative gradients.
   for (SuffusionState& state : states) state.layer_gradient = {-1, -3};
-  CHECK(suffusion_onset(states, {}).steepest_layer == 0);
+  CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1.5));
   CHECK(suffusion_onset({}, {}).steepest_layer == 0);
 }

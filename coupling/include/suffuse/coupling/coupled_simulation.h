@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -184,6 +185,7 @@ class CoupledSimulation {
   void survey(const GrainArrays& grains);
   void collect_exchange(const GrainArrays& grains);
   void hand_over(const GrainArrays& grains);
+  double immersed_share(const Vec3& position, double radius) const;
   void foresee();
   void keep_ledger(int owned);
   void require_finite(const GrainArrays& grains) const;
@@ -205,6 +207,7 @@ class CoupledSimulation {
   static constexpr long kNever = -1, kWhoeverIsThere = -2;
   long surveys_ = 0;
   long surveyed_grains_ = kNever;  ///< of all ranks, at the last survey
+  std::uint64_t surveyed_radii_ = 0;
   long rested_steps_ = 0;
   long rested_at_ = kNever;                 ///< step after which the water is known to be at rest
   bool has_flowed_ = false;                 ///< it is never at rest again, to the last digit

@@ -15,6 +15,7 @@ struct GrainState {
   double radius = 0;
   Vec3 velocity = Vec3::Zero();  ///< the one that its cells were given in this fluid step
   Vec3 angular_velocity = Vec3::Zero();
+  double immersed = 1;  ///< part of its volume that lies in the water's box, where its cells are
 };
 
 /// Momentum and angular momentum (kg m/s, kg m^2/s) by which the fluid in a grain's cells is ahead of a solid
@@ -43,6 +44,10 @@ struct LoadRule {
 };
 
 using micromechanics::sphere_volume;
+
+/// Part of a sphere's volume on one side of a plane, on which its centre lies `depth` deep (negative: beyond
+/// it).
+double share_within(double radius, double depth);
 
 /// What the fluid outside does to a grain, from what its cells exchanged in a fluid step:
 ///
