@@ -18,6 +18,7 @@ atom_modify map array
 communicate single vel yes
 boundary {boundary}
 newton off
+processors * 1 1
 region box block 0 2e-3 0 2e-3 0 {height} units box
 create_box 1 box
 neighbor 2e-4 bin
