@@ -213,9 +213,8 @@ void print_mean(const std::vector<Comparison>& of_row) {
       }
     if (n < 2) continue;
     const double mean = sum / n, deviation = std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)));
-    fmt::print("  {:<22}{:>12}{:>12}   +- {:.2g}{}\n", quantity->name, number(mean),
-               number(quantity->thesis), deviation,
-               n < static_cast<double>(of_row.size()) ? fmt::format("   ({:g} samples)", n) : "");
+    fmt::print("  {:<22}{:>12}{:>12}   +- {:.2g}{}\n", quantity->name, number(mean), number(quantity->thesis),
+               deviation, n < static_cast<double>(of_row.size()) ? fmt::format("   ({:g} samples)", n) : "");
   }
 }
 

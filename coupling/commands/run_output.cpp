@@ -112,7 +112,8 @@ void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const Ma
                      [&](const auto& open) { return open->request().id == request.id; })) {
       monitors_.push_back(std::make_unique<Monitor>(request, scene, mapped, continue_after, references_));
       // Another monitor of this name, later, begins with its own samples.
-      std::erase_if(references_, [&](const auto& entry) { return entry.first.starts_with(request.id + ": "); });
+      std::erase_if(references_,
+                    [&](const auto& entry) { return entry.first.starts_with(request.id + ": "); });
     }
 
   std::erase_if(fields_, [&](const auto& open) {

@@ -174,8 +174,8 @@ bool CoupledSimulation::survey_due(const GrainArrays& grains) {
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_UINT64_T, MPI_SUM, fluid_.decomposition().communicator());
   const auto count = static_cast<long>(sums[1]);
   // Sums of radii as whole numbers do not depend on the order: another sum, other grains.
-  const bool same_grains = surveyed_grains_ == kWhoeverIsThere ||
-                           (count == surveyed_grains_ && sums[2] == surveyed_radii_);
+  const bool same_grains =
+      surveyed_grains_ == kWhoeverIsThere || (count == surveyed_grains_ && sums[2] == surveyed_radii_);
   surveyed_grains_ = count;
   surveyed_radii_ = sums[2];
   return sums[0] > 0 || !same_grains;

@@ -110,8 +110,8 @@ class FixHydrodynamicForce : public Fix {
   std::vector<Addition> applied_;  // what atom->f and atom->torque hold of ours
   bool stale_ = true;              // grains have changed places since then
   bool in_water_ = false;
-  bool in_interval_ = false;       // between a fluid step and the next
-  bool setting_up_ = false;        // fixes that come later have still to add their forces of the set-up
+  bool in_interval_ = false;  // between a fluid step and the next
+  bool setting_up_ = false;   // fixes that come later have still to add their forces of the set-up
   bool restored_ = false;
   int foreign_records_ = 0;  // of a restart file, that this version cannot read
   double fluid_time_ = 0;    // s, at the step fluid_step_
