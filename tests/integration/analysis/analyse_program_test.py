@@ -145,6 +145,30 @@ def check_reproduce(program):
     program.must_refuse(["reproduce", "table-4-1", "nowhere"], "nowhere", "folder")
 
 
+def write_gap_graded(folder, coarse, fines):
+    """Spheres on a lattice, of 2 and 0.5 mm, one contact; a sample of row 11b."""
+    folder.mkdir(parents=True)
+    sizes = [2e-3] * coarse + [0.5e-3] * fines
+    box = "0 0.048\n" * 3
+    rows = "".join(f"{k + 1} 1 {k % 12 * 0.004 + 0.002:.6g} {k // 12 % 12 * 0.004 + 0.002:.6g} {k // 144 * 0.004 + 0.002:.6g} {radius}\n" for k, radius in enumerate(sizes))
+    (folder / "grains.dump").write_text(f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n{len(sizes)}\nITEM: BOX BOUNDS pp pp pp\n{box}ITEM: ATOMS id type x y z radius\n{rows}")
+    columns = " ".join(f"c_pairs[{k}]" for k in range(1, 19))
+    (folder / "contacts.dump").write_text(f"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n1\nITEM: BOX BOUNDS pp pp pp\n{box}ITEM: ENTRIES {columns}\n"
+                                          "0.002 0.002 0.002 0.006 0.002 0.002 1 2 0 -1e-3 0 0 -1e-3 0 0 0 0 0\n")
+    (folder / "sample.toml").write_text('table_4_1 = "11b"\nstate = "dense"\nfriction = 0.3\n')
+
+
+def check_mean_of_samples(program):
+    """Of a row whose samples lie on both sides of the fines share beyond which there are two more quantities: each with its own kind."""
+    write_gap_graded(program.folder / "several" / "a", 30, 620)
+    write_gap_graded(program.folder / "several" / "b", 30, 639)
+    for order in (("several/a", "several/b"), ("several/b", "several/a")):
+        mean = program.must_run("reproduce", "table-4-1", *order).split("mean of 2 samples")[1].splitlines()
+        values = {line.split()[0]: float(line.split()[1]) for line in mean if "+-" in line}
+        check(values["grains"] == 659.5 and 0.98 < values["porosity"] < 1 and values["coordination_number"] < 0.01, f"{order}: {values}")
+        check(all(abs(value) < 1e4 for value in values.values()), f"{order}: {values}")
+
+
 def check_mistakes(program):
     folder = program.folder
     good = (folder / "c.dump").read_text()
@@ -267,6 +291,7 @@ def main():
         check_shear(program)
         check_numbers(program)
         check_reproduce(program)
+        check_mean_of_samples(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
 
 
