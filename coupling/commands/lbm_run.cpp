@@ -115,7 +115,14 @@ GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   if (scene_.simulation.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
   now.mach_limit = settings_.largest_mach;
   const LiggghtsPort::Summary grains = scene_.port.summary();  // as they are: some may have come in or gone
-  if (grains.grains > 0) now.fastest_grain = grains.speed;
+  now.fastest_grain = grains.speed;
+  if (std::isfinite(grains.speed)) {  // dry ones may fall as they like
+    now.fastest_grain = 0;
+    for (const LiggghtsPort::OwnedGrain& grain : scene_.port.owned())
+      if (scene_.simulation.holds(grain.position))
+        now.fastest_grain = std::max(now.fastest_grain, grain.speed);
+    MPI_Allreduce(MPI_IN_PLACE, &now.fastest_grain, 1, MPI_DOUBLE, MPI_MAX, communicator_of(scene_.lmp));
+  }
   if (grains.solid_volume > 0)
     now.overlap =
         scene_.simulation.overlap() * std::pow(scene_.simulation.units().spacing(), 3) / grains.solid_volume;

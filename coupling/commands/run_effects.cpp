@@ -28,13 +28,9 @@ double largest_virtual_mass_number(const CoupledSettings& settings, const Ligggh
 
 /// Of grains whose centre lies in the fluid's box, m/s: others are dry.
 double fastest_wet_grain(const LiggghtsPort& port, const CoupledSimulation& simulation) {
-  const lbm::Index3& cells = simulation.fluid().decomposition().cells();
   double fastest = 0;
-  for (const LiggghtsPort::OwnedGrain& grain : port.owned()) {
-    const Vec3 at = (grain.position - simulation.origin()) / simulation.units().spacing();
-    if ((at.array() >= 0).all() && (at.array() <= Eigen::Array3d(cells[0], cells[1], cells[2])).all())
-      fastest = std::max(fastest, grain.speed);
-  }
+  for (const LiggghtsPort::OwnedGrain& grain : port.owned())
+    if (simulation.holds(grain.position)) fastest = std::max(fastest, grain.speed);
   return fastest;
 }
 

@@ -152,11 +152,11 @@ std::string RunGuards::place_of(const std::string& name) const {
   const auto& spheres = simulation_.spheres();
   for (const LatticeSphere& sphere : spheres) {
     const double value = Vec3(sphere.velocity[0], sphere.velocity[1], sphere.velocity[2]).norm();
-    if (!(value > worst.value)) continue;
-    worst.value = value;
-    worst.id = sphere.id;
-    worst.at = simulation_.origin() + simulation_.units().spacing() *
-                                          Vec3(sphere.position[0], sphere.position[1], sphere.position[2]);
+    const Vec3 at =
+        simulation_.origin() +
+        simulation_.units().spacing() * Vec3(sphere.position[0], sphere.position[1], sphere.position[2]);
+    if (!(value > worst.value) || !simulation_.holds(at)) continue;
+    worst = {value, at, static_cast<double>(sphere.id)};
   }
   worst = worst_of_ranks(worst, communicator);
   return fmt::format(", id {:.0f} at {}", worst.id, text_of(worst.at));

@@ -104,6 +104,12 @@ void CoupledSimulation::set_walls(const lbm::Walls& walls, const std::string& ac
   acting_walls_ = acting;
 }
 
+bool CoupledSimulation::holds(const Vec3& point) const {
+  const lbm::Index3& cells = fluid_.decomposition().cells();
+  const Eigen::Array3d at = (point - origin_).array() / units_.spacing();
+  return (at >= 0).all() && (at <= Eigen::Array3d(cells[0], cells[1], cells[2])).all();
+}
+
 long CoupledSimulation::grains_behind_walls() const {
   if (!fluid_.has_closed_cells()) return 0;
   constexpr double least_radius = 0.87;  // half the diagonal of a cell

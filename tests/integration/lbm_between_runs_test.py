@@ -62,6 +62,14 @@ def check_dry_grains(program, folder):
         expect(abs(fall - 1) < 1e-9 and load == 0, f"{density} kg/m3, {gravity}a dry grain falls at {fall} of free fall's speed, load {load} N")
 
 
+def check_fast_dry_grain(program, folder):
+    """Faster than the water could follow, where there is none."""
+    text = BOX.format(boundary="f f f", height="6e-3") + FALLING.format(z="5e-3", density=2650) + \
+        "region water block 0 2e-3 0 2e-3 0 2e-3 units box\nlbm lattice spacing 1e-4 relaxation_time 0.53 region water\nvelocity all set 0 0 1\n" + \
+        "lbm guard motion 0.05\nlbm run 5e-4\n"
+    program.must_run(text, folder)
+
+
 def check_pores(program, folder):
     """Held spheres that have grown have the pores of those that were as large from the beginning."""
     places = "".join(f"create_atoms 1 single {x} {y} {z} units box\n" for x in ("0.5e-3", "1.5e-3") for y in ("0.5e-3", "1.5e-3") for z in ("0.5e-3", "1.5e-3"))
@@ -102,6 +110,7 @@ def main():
         folder = pathlib.Path(folder)
         check_plain_runs(program, folder)
         check_dry_grains(program, folder)
+        check_fast_dry_grain(program, folder)
         check_pores(program, folder)
         check_faces(program, folder)
         check_guard(program, folder)

@@ -109,6 +109,8 @@ class CoupledSimulation {
   /// For progress lines.
   std::string health_text(const lbm::FluidExtremes& extremes) const;
   const Vec3& origin() const { return origin_; }
+  /// Whether a point (m) lies in the water's box: a grain whose centre does not is dry.
+  bool holds(const Vec3& point) const;
   /// This rank's spheres as they were last read, copies included, in lattice units.
   const std::vector<LatticeSphere>& spheres() const { return spheres_; }
   ParticlePort& grains() { return grains_; }
