@@ -181,10 +181,10 @@ void add_critical_gradients(ResultRows& rows, const Run& run, const Fluidisation
   if (run.of_all_grains)
     rows.add("critical gradient, weight of all grains", "i_cr", *run.of_all_grains, "-", "terzaghi1943",
              "with those that stick out above the height of the layers");
-  if (result.vanishes)
-    rows.add("critical gradient, stress vanishes", "i_cr", *result.vanishes, "-", "line of sigma' over i",
-             fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / *result.vanishes,
-                         distance(run, *result.vanishes)));
+  if (const auto& gradient = result.vanishes())
+    rows.add("critical gradient, stress vanishes", "i_cr", *gradient, "-", "line of sigma' over i",
+             fmt::format("standard error {:.2g} %; {}", 100 * result.stress->root_error() / *gradient,
+                         distance(run, *gradient)));
   else if (result.stress)
     rows.add(
         "critical gradient, stress vanishes", "i_cr", std::nullopt, "-", "line of sigma' over i",
@@ -314,8 +314,8 @@ Record variables_of(const Run& run, const NumberTable& table) {
           {"measured_sauter", first_of(table.find("sauter_diameter_m"))},
           {"conductivity", run.result.flow.slope},
           {"samples", static_cast<double>(run.result.flow.points)},
-          {"stress_gradient", run.result.vanishes, true},
-          {"stress_gradient_found", run.result.vanishes ? 1. : 0.},
+          {"stress_gradient", run.result.vanishes(), true},
+          {"stress_gradient_found", run.result.vanishes() ? 1. : 0.},
           {"coordination_top", coordination.empty() ? std::nullopt : first_of(coordination.front())},
           {"coordination_bottom", coordination.empty() ? std::nullopt : first_of(coordination.back())}};
 }

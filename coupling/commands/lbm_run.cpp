@@ -115,14 +115,8 @@ GuardReading LbmRun::reading(const lbm::FluidExtremes& fluid) const {
   if (scene_.simulation.method() != nullptr) now.fluid.largest_speed = 0;  // no sound, no Mach number
   now.mach_limit = settings_.largest_mach;
   const LiggghtsPort::Summary grains = scene_.port.summary();  // as they are: some may have come in or gone
-  now.fastest_grain = grains.speed;
-  if (std::isfinite(grains.speed)) {  // dry ones may fall as they like
-    now.fastest_grain = 0;
-    for (const LiggghtsPort::OwnedGrain& grain : scene_.port.owned())
-      if (scene_.simulation.holds(grain.position))
-        now.fastest_grain = std::max(now.fastest_grain, grain.speed);
-    MPI_Allreduce(MPI_IN_PLACE, &now.fastest_grain, 1, MPI_DOUBLE, MPI_MAX, communicator_of(scene_.lmp));
-  }
+  now.fastest_grain =  // dry ones may fall as they like, but not be lost
+      std::isfinite(grains.speed) ? fastest_wet_grain(scene_.port, scene_.simulation) : grains.speed;
   if (grains.solid_volume > 0)
     now.overlap =
         scene_.simulation.overlap() * std::pow(scene_.simulation.units().spacing(), 3) / grains.solid_volume;

@@ -26,15 +26,14 @@ double largest_virtual_mass_number(const CoupledSettings& settings, const Ligggh
   return largest;
 }
 
-/// Of grains whose centre lies in the fluid's box, m/s: others are dry.
+}  // namespace
+
 double fastest_wet_grain(const LiggghtsPort& port, const CoupledSimulation& simulation) {
   double fastest = 0;
   for (const LiggghtsPort::OwnedGrain& grain : port.owned())
     if (simulation.holds(grain.position)) fastest = std::max(fastest, grain.speed);
-  return fastest;
+  return largest_of_ranks(fastest, simulation.fluid().decomposition().communicator());
 }
-
-}  // namespace
 
 double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& faces) {
   const lbm::Units units(request);
@@ -67,7 +66,7 @@ EffectFacts RunEffects::facts_now(const LiggghtsPort& port, const CoupledSimulat
   now.fluid.faces = simulation.fluid().settings().faces;
   EffectFacts facts = facts_of_grains(now, port, communicator);
   facts.water_speed = water_speed;
-  facts.grain_speed = largest_of_ranks(fastest_wet_grain(port, simulation), communicator);
+  facts.grain_speed = fastest_wet_grain(port, simulation);
   return facts;
 }
 

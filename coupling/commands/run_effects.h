@@ -22,6 +22,9 @@ double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& 
 /// Collective.
 EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port, MPI_Comm communicator);
 
+/// Of the grains whose centre lies in the water's box, m/s: others are dry. Collective.
+double fastest_wet_grain(const LiggghtsPort& port, const CoupledSimulation& simulation);
+
 /// The effects of a scene while it runs: decided at its start, at the beginning of each `lbm run` and at
 /// steps that are multiples of kEffectsEvery, and what acts on them.
 ///

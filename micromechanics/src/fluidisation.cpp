@@ -253,11 +253,8 @@ Fluidisation measure_fluidisation(std::span<const FlowState> states, double crit
   for (std::size_t layer = 0; layer < states.front().gradient.size(); ++layer)
     result.layers.push_back(measure_layer(course, layer, velocity));
   const std::size_t lowest = states.front().gradient.size() - 1;
-  if (const auto ratio = stress_ratio(states, lowest); !ratio.empty()) {
-    const std::vector<double> lifting = lifting_gradients(states, lowest);
-    result.stress = fit_in_window(course, lifting, ratio);
-    result.vanishes = vanishing(course, result.stress, lifting, ratio);
-  }
+  if (const auto ratio = stress_ratio(states, lowest); !ratio.empty())
+    result.stress = fit_in_window(course, lifting_gradients(states, lowest), ratio);
   return result;
 }
 

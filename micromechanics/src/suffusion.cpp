@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "suffuse/micromechanics/fluidisation.h"
 
 namespace suffuse::micromechanics {
 
@@ -14,12 +15,6 @@ bool changed_inside(const SuffusionState& first, const SuffusionState& now) {
     if (before > 0 && std::abs(now.fines_share[layer] / before - 1) > kInsideChange) return true;
   }
   return false;
-}
-
-double mean_gradient(const SuffusionState& state) {
-  const auto& layers = state.layer_gradient;
-  if (layers.empty()) return 0;
-  return std::accumulate(layers.begin(), layers.end(), 0.) / static_cast<double>(layers.size());
 }
 
 }  // namespace
@@ -35,7 +30,7 @@ SuffusionOnset suffusion_onset(std::span<const SuffusionState> states,
     if (!onset.inside && changed_inside(states.front(), state)) onset.inside = largest;
     for (std::size_t k = 0; k < eroded_shares.size(); ++k)
       if (!onset.eroded[k] && state.eroded_share >= eroded_shares[k]) onset.eroded[k] = largest;
-    const double mean = mean_gradient(state);
+    const double mean = state.layer_gradient.empty() ? 0 : bed_gradient(state.layer_gradient);
     largest_mean = std::max(largest_mean, std::abs(mean));
     if (n < states.size() / 10 || mean == 0 || std::abs(mean) < kSteadyShare * largest_mean) continue;
     for (const double gradient : state.layer_gradient)  // along the flow, up or down

@@ -4,13 +4,12 @@
 Where the water is not, and what changes between two `lbm run`: a plain `run` moves grains without water, and so is a grain outside of
 the water's region; grains of another diameter have other pores; faces keep their kind; guards look at the grains that are there.
 """
-import csv
 import pathlib
 import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
-from scenes import expect, program_from_command_line, scratch  # noqa: E402
+from scenes import columns, expect, material, program_from_command_line, scratch  # noqa: E402
 
 BOX = """units si
 atom_style granular
@@ -21,14 +20,7 @@ newton off
 processors * 1 1
 region box block 0 2e-3 0 2e-3 0 {height} units box
 create_box 1 box
-neighbor 2e-4 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 5e6
-fix m2 all property/global poissonsRatio peratomtype 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 1 0.5
-fix m4 all property/global coefficientFriction peratomtypepair 1 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
+""" + material(skin=2e-4, modulus="5e6", restitution=0.5, friction=0.3) + """
 thermo 1000000
 lbm fluid density 1000 viscosity 1e-6
 """
@@ -79,8 +71,7 @@ def check_pores(program, folder):
             "lbm lattice spacing 2e-4 relaxation_time 0.8\nlbm force pressure_gradient 0 0 10\nlbm monitor m every 1e-2 file flow.csv superficial_velocity\n" + \
             "lbm run 0.01\nset group all diameter 9.9e-4\nlbm run 0.3\n"
         program.must_run(text, folder)
-        with open(folder / "flow.csv", newline="", encoding="utf-8") as file:
-            flows.append(float(list(csv.DictReader(line for line in file if not line.startswith("#")))[-1]["superficial_velocity_z_m_per_s"]))
+        flows.append(columns(folder / "flow.csv")["superficial_velocity_z_m_per_s"][-1])
         (folder / "flow.csv").unlink()
     expect(abs(flows[1] / flows[0] - 1) < 1e-3, f"spheres that have grown let {flows[1]} m/s through, others {flows[0]}")
 

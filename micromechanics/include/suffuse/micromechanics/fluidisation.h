@@ -109,10 +109,12 @@ struct Fluidisation {
   /// σ'/σ'_0 of the lowest layer over lifting_gradient() there, nearly the gradient over the bed: the first
   /// layer to fail in the thesis (section 6.5.1), and where all grains' weight has been taken off.
   std::optional<LineFit> stress;
-  std::optional<double> vanishes;  ///< where that line meets zero, if it says so (kBentStress)
   std::optional<OnsetOfMotion> onset;
   std::vector<LayerFluidisation> layers;
   double largest_gradient = 0;  ///< over the bed
+
+  /// Where that line of the lowest layer's stress meets zero, if it says so (kBentStress).
+  const std::optional<double>& vanishes() const { return layers.back().by_lifting; }
 };
 
 /// Measures a run from states with rising gradients. `critical`: the gradient expected (Terzaghi's), which
