@@ -70,11 +70,13 @@ int main(int argc, char** argv) {
   app.add_option("--fraction", fraction, "exact, linear, subcells");
   app.add_option("--collision", collision, "see `lbm collision`");
   app.add_option("--magic", run.magic, "of trt");
-  app.add_option("--law", law, "constant,single,crowded,narrow,tight,reach of the automatic coefficient");
+  app.add_option("--law", law,
+                 "constant,single,crowded,narrow,tight,reach,swept of the automatic coefficient");
   app.add_flag("--movable", run.movable, "coefficients cut as those of grains that may move");
   app.add_option("--water", run.water, "empty layers above and below along z, in box lengths");
   app.add_flag("--through", run.through, "flow along z instead of x");
-  app.add_option("--speed", speed, "moves packing and fluid along x, cells a step: another set of columns");
+  app.add_option("--speed", speed, "moves packing and fluid, along x, cells a step: another set of columns");
+  app.add_flag("--oblique", run.oblique, "with --speed: motion along (1, 1, 1)");
   app.add_option("--flow", flow, "with --speed: superficial velocity past the packing, cells a step");
   app.add_flag("--single", run.single, "single precision");
   app.add_flag("--header,!--no-header", header, "first row with names");
@@ -88,7 +90,8 @@ int main(int argc, char** argv) {
   if (fraction == "subcells") run.fraction = FractionMethod::subcells;
   if (!law.empty()) {
     const std::vector<double> terms = listed(law, read_number);
-    run.law = CoefficientLaw{{terms.at(0), terms.at(1), terms.at(2), terms.at(3), terms.at(4), terms.at(5)}};
+    run.law = CoefficientLaw{
+        {terms.at(0), terms.at(1), terms.at(2), terms.at(3), terms.at(4), terms.at(5), terms.at(6)}};
   }
   for (const lbm::CollisionFacts& facts : lbm::kCollisionOperators)
     if (collision == facts.word) run.collision = facts.collision_operator;

@@ -26,9 +26,10 @@ constexpr double kFinest = 0.014, kCoarsest = 0.3;
 constexpr double kShareOfTimeStep = 1. / 3;
 constexpr double kLargestMach = 0.2, kLargestRelaxationTime = 1;
 constexpr double kFloatFrom = 0.005, kLeastCellsAStep = 1e-4;
-/// Error of the drag of grains at 5 viscosities a cell, with TRT and with the operator that relaxes moments
-/// about the cell's own velocity.
-constexpr double kMeasuredAt = 5, kErrorThere = 0.07, kComovingErrorThere = 0.03;
+/// Most error of the drag of grains that carry their water, over their speed in viscosities a cell: with TRT
+/// it grows with its square, with the operator that relaxes moments about the cell's own velocity as it does
+/// (docs/results/data/solid_operator_comoving.csv).
+constexpr double kErrorOfSquare = 0.002, kComovingError = 0.0022;
 
 double squared(double value) {
   return value * value;
@@ -98,7 +99,7 @@ AccuracyErrors expected_errors(const AccuracyScene& scene, double spacing, doubl
   errors.density = 1.5 * scene.pressure_range / scene.density * squared(time_step / spacing);
   const bool comoving = collision == lbm::CollisionOperator::trt_comoving;
   const double fast = scene.grain_speed * spacing / scene.viscosity;
-  errors.motion = (comoving ? kComovingErrorThere : kErrorThere) * squared(fast / kMeasuredAt);
+  errors.motion = comoving ? kComovingError * fast : kErrorOfSquare * squared(fast);
   if (scene.response_time > 0) errors.coupling = 0.5 * time_step / scene.response_time;
   return errors;
 }

@@ -221,6 +221,7 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
                turn = units_.time_step();
   spheres_.resize(static_cast<std::size_t>(grains.total));
   coefficients_.resize(spheres_.size());
+  const double of_speed = 1 / lbm::viscosity_of(units_.relaxation_time());
   double finite = 0;  // 0 times a number, unless it is none
   for (int n = 0; n < grains.total; ++n) {
     LatticeSphere& sphere = spheres_[static_cast<std::size_t>(n)];
@@ -237,6 +238,8 @@ void CoupledSimulation::read_spheres(const GrainArrays& grains) {
     if (known.radius != grains.radius[n] || known.mass != grains.mass[n])
       known = coefficients_of(grains.radius[n], grains.mass[n]);
     sphere.coefficient = known.of_sphere;
+    if (settings_.solids.automatic_coefficient)
+      sphere.coefficient_share = law_.share_at(of_speed * vector_at(sphere.velocity, 0).lpNorm<1>());
     sphere.largest_coefficient = known.largest;
   }
   spheres_finite_ = finite == 0;

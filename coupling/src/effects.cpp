@@ -44,7 +44,7 @@ double speed_of_fall(const EffectFacts& facts, const lbm::Units& units) {
 }  // namespace
 
 double largest_comoving_speed(double relaxation_time) {
-  if (relaxation_time < 0.51) return 0.05;
+  if (relaxation_time < 0.51) return 0.04;
   return relaxation_time < 0.52 ? 0.1 : 0.15;
 }
 

@@ -67,7 +67,7 @@ template <FractionMethod kMethod, bool kOwn, Target kTarget>
       Floats strength = fraction;
       if constexpr (kOwn) {
         const Floats pore = arrays.pore_coefficient ? load(arrays.pore_coefficient + cell) : Floats{};
-        const Floats k = lesser(coefficient + pore, Floats{} + m.largest_coefficient);
+        const Floats k = lesser(m.coefficient_share * (coefficient + pore), Floats{} + m.largest_coefficient);
         strength = (k * fraction + kStrengthRounding) - kStrengthRounding;
       }
       store(entries, strength);

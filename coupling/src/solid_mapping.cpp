@@ -65,6 +65,7 @@ void SolidMapping::set_place(const LatticeSphere& sphere, MappedSphere& mapped) 
     mapped.linear_offset = linear_offset(sphere.radius);
   mapped.radius = radius;
   mapped.coefficient = static_cast<float>(sphere.coefficient);
+  mapped.coefficient_share = static_cast<float>(sphere.coefficient_share);
   mapped.largest_coefficient = static_cast<float>(sphere.largest_coefficient);
   for (int a = 0; a < 3; ++a) {
     mapped.position[a] = sphere.position[a];

@@ -33,7 +33,7 @@ def check_changes(program, folder):
     saved = "lbm restart write {0}.state every 1.9e-2\nlbm run until 0.048\n"
     screen = program.must_run(falling("whole", more=saved.format("whole")), folder)
     told = changes(screen)
-    # At the first look, at 0.0195 s, the fastest grain has 8.9 viscosities a cell (2 are the limit), at the second the water 11.7 (30): on any ranks.
+    # At the first look, at 0.0195 s, the fastest grain has 8.9 viscosities a cell (3 are the limit), at the second the water 11.7 (30): on any ranks.
     expect([(name, state, round(time / STEP)) for name, state, time in told] == [("comoving", "on", 250)],
            f"changes told: {told}\n{screen[-1500:]}")
     report = json.loads((folder / "effects.json").read_text())
@@ -43,7 +43,7 @@ def check_changes(program, folder):
     last = [change for change in told if change[0] == "comoving"][-1]
     expect(comoving["asked"] == "auto" and abs(comoving["changed_at_s"] - last[2]) < 1e-6 and comoving["on"] == (last[1] == "on"), f"{comoving} after {told}")
     expect(0 < comoving["share_of_steps"] < 1 and 0 <= comoving["share_of_time"] < 0.5, f"{comoving}")
-    expect(comoving["limit"] == 2 and comoving["release"] == 1, f"{comoving}")
+    expect(comoving["limit"] == 3 and comoving["release"] == 1.5, f"{comoving}")
     shares = [effect["share_of_time"] for effect in report["effects"] if effect["share_of_time"] is not None]
     expect(0.8 < sum(shares) < 1.05, f"shares add up to {sum(shares)}: {report}")
     rows = (folder / "whole.csv").read_text()

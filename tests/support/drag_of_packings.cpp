@@ -228,13 +228,14 @@ MovingResult moving_drag_of(const Packing& packing, double diameter, const DragR
   Scene scene = make_scene(packing, diameter, run);
   const double gradient = 18 * scene.phi * held.drag * scene.nu * flow / (scene.diameter * scene.diameter);
   scene.settings.pressure_gradient = Vec3(gradient, 0, 0);
-  for (auto& g : scene.list) g.velocity = Vec3(speed, 0, 0);
+  const Vec3 motion = speed * (run.oblique ? Vec3::Constant(1 / std::sqrt(3.)) : Vec3(1, 0, 0));
+  for (auto& g : scene.list) g.velocity = motion;
   PrescribedGrains grains = grains_of(scene);
   grains.mobile = true;
   CoupledSimulation simulation(scene.settings, lbm::Decomposition::balanced(MPI_COMM_WORLD, scene.cells),
                                Vec3::Zero(), grains);
   simulation.fluid().set_equilibrium([&](const lbm::Index3&) {
-    return lbm::FluidPoint{1, Vec3(speed + flow, 0, 0)};
+    return lbm::FluidPoint{1, motion + Vec3(flow, 0, 0)};
   });
   MovingResult result;
   result.held = held.drag;
@@ -247,7 +248,7 @@ MovingResult moving_drag_of(const Packing& packing, double diameter, const DragR
     simulation.step();
     if (n % 50 == 0 && !(simulation.fluid().extremes().largest_speed < 0.5)) return result;
     if (n < steps) continue;
-    flux += (simulation.fluid().momentum()[0] / scene.total - 0.5 * gradient - speed) / measured;
+    flux += (simulation.fluid().momentum()[0] / scene.total - 0.5 * gradient - motion[0]) / measured;
     const double force = grains.force_on(0)[0];
     mean += force / measured;
     squares += force * force / measured;

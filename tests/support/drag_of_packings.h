@@ -38,6 +38,7 @@ struct DragRun {
   double offset = 0.3;                ///< of the packing from the lattice, cells
   double water = 0;                   ///< layers without grains below and above (z), in box lengths
   bool through = false;               ///< flow along z, else along x
+  bool oblique = false;               ///< a packing that moves does so along (1, 1, 1), else along x
   bool single = false;                ///< single precision
   bool movable = false;               ///< coefficients as of grains that may move (largest_coefficient)
 };
@@ -62,8 +63,8 @@ struct MovingResult {
   double noise = 0;     ///< rms of one grain's force over its mean
 };
 
-/// The whole packing moved along x at `speed` (cells a step), fluid with it, with a superficial velocity
-/// relative to it of about `flow`.
+/// The whole packing moved at `speed` (cells a step), fluid with it, with a superficial velocity relative to
+/// it of about `flow` along x.
 MovingResult moving_drag_of(const Packing& packing, double diameter, const DragRun& run, double speed,
                             double flow);
 

@@ -156,6 +156,28 @@ TEST_CASE("The coefficient falls with resolution and rises with crowding") {
   CHECK_THROWS_AS(coefficient_law(lbm::SolidOperator::sc2), UserError);
 }
 
+TEST_CASE(
+    "The coefficient of a sphere that moves falls by what its surfaces sweep, and is the law's at rest") {
+  const CoefficientLaw law = coefficient_law(lbm::SolidOperator::force);
+  CHECK(law.share_at(0) == 1);
+  CHECK(law.share_at(10) == Approx(1 / 1.12).epsilon(1e-12));
+  CHECK(coefficient_law(lbm::SolidOperator::sc3).share_at(10) == 1);  // not fitted
+  // 0.05 and 0.02 cells a step along x and y, viscosity 0.1: 0.7 viscosities a cell; the sign does not
+  // matter.
+  const auto in_the_middle = [](const Vec3& velocity) {
+    std::vector<PrescribedGrains::Grain> list = grains_at({Vec3(8.5, 8.5, 8.5)}, {3});
+    list[0].velocity = velocity;
+    PrescribedGrains grains(list, Vec3(17, 17, 17), {true, true, true}, 1.);
+    CoupledSimulation simulation(
+        cells_as_metres(), lbm::Decomposition::balanced(MPI_COMM_WORLD, {17, 17, 17}), Vec3::Zero(), grains);
+    simulation.map();
+    return coefficient_in(simulation, {8, 8, 8});
+  };
+  const double still = in_the_middle(Vec3::Zero());
+  for (const double sign : {-1., 1.})  // strengths are multiples of 2^-14
+    CHECK(in_the_middle(sign * Vec3(0.05, -0.02, 0)) == Approx(still * law.share_at(0.7)).epsilon(1e-4));
+}
+
 TEST_CASE("The surface per volume of pore is what a sum over points on and in the spheres gives") {
   CoupledSettings settings = cells_as_metres();
   settings.fluid.collision.relaxation_time = 0.8;

@@ -116,8 +116,8 @@ TEST_CASE(
     "The collision follows grains that are fast for the viscosity, unless it would be unstable or was "
     "named") {
   EffectFacts fast = bed();
-  fast.grain_speed = 0.025;                                 // V dx/nu = 2.5
-  CHECK(chosen(fast, water(0.52)).comoving == Switch::on);  // 0.017 cells a step
+  fast.grain_speed = 0.035;                                 // V dx/nu = 3.5
+  CHECK(chosen(fast, water(0.52)).comoving == Switch::on);  // 0.023 cells a step
   CoupledSettings thesis = water();
   thesis.fluid.collision.collision_operator = lbm::CollisionOperator::bgk;
   CHECK(chosen(fast, thesis).comoving == Switch::off);

@@ -87,8 +87,9 @@ struct AccuracyChoice {
 ///   run stops at 0.3), and a relaxation time of at most 1 (above, velocities lag near walls);
 /// - float, whose five digits agree with double's, where the water moves by more than 1e-4 cells a step, as
 ///   slower water loses digits, and half a per cent or more is asked for;
-/// - `trt_comoving` where grains move faster than two viscosities a cell: the drag of beds that carry their
-///   water grows with the square of that speed with `trt`, 7 % at 5 (docs/decisions/solid-operator.md).
+/// - `trt_comoving` where grains move faster than three viscosities a cell: the drag of beds that carry their
+///   water errs with the square of that speed with `trt`, by up to 5 % at 5
+///   (docs/decisions/solid-operator.md).
 ///
 /// A UserError where no such settings exist: below 1.4 % packings are not known well enough, above 30 %
 /// grains are not resolved at all; without any velocity; no spacing fits the box.

@@ -30,7 +30,7 @@ inline constexpr Hysteresis kGridReynolds{30, 15};
 
 /// Speed of grains in viscosities a cell, V dx/nu, from which on the drag of a bed that carries its water is
 /// 2 % too large with `trt` (docs/decisions/solid-operator.md).
-inline constexpr Hysteresis kFastGrains{2, 1};
+inline constexpr Hysteresis kFastGrains{3, 1.5};
 
 /// Stokes number (1/9)(rho_s/rho_f) d u/nu from which on spheres rebound in a liquid as if they were dry
 /// (docs key: gondret2002), and solid fraction from which on grains rest on each other rather than move
@@ -38,7 +38,7 @@ inline constexpr Hysteresis kFastGrains{2, 1};
 inline constexpr Hysteresis kDryStokes{1000, 500}, kTouchingPacking{0.5, 0.45};
 
 /// Largest speed, cells a step, at which a uniform stream is linearly stable with `trt_comoving` along an
-/// axis (docs/decisions/solid-operator.md).
+/// axis, and packings that are carried along (1, 1, 1) gain no energy (docs/decisions/solid-operator.md).
 double largest_comoving_speed(double relaxation_time);
 
 /// The effects of a scene: what the script asked for, what it came to, and why. Free of LIGGGHTS and MPI: the

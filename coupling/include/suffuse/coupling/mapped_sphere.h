@@ -35,6 +35,7 @@ struct LatticeSphere {
   double velocity[3]{};
   double angular_velocity[3]{};                   ///< radians a step
   double coefficient = 1;                         ///< the sphere's part of k, used with own_coefficients
+  double coefficient_share = 1;                   ///< k times this: see CoefficientLaw::share_at
   double largest_coefficient = kSafeCoefficient;  ///< where k is cut
   int id = 0;
 };
@@ -54,7 +55,8 @@ struct LatticeLoad {
 struct MappedSphere {
   double position[3]{};
   double reach = 0;  ///< beyond this distance from the centre no cell's centre is that of a covered cell
-  float radius = 0, coefficient = 1, largest_coefficient = 1, velocity[3]{}, angular_velocity[3]{};
+  float radius = 0, coefficient = 1, coefficient_share = 1, largest_coefficient = 1, velocity[3]{},
+        angular_velocity[3]{};
   float linear_offset = 0;     ///< of FractionMethod::linear, see linear_offset()
   int x_start = 0, packs = 0;  ///< no packs: none of this rank's cells
   int y_begin = 0, y_end = 0, z_begin = 0, z_end = 0;

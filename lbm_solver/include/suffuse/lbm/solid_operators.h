@@ -16,7 +16,7 @@ namespace suffuse::lbm {
   MIXED(sc1, 1, {}, "bounce-back of the non-equilibrium part (Noble and Torczynski)") \
   MIXED(sc2, 1, {}, "relaxation towards the solid's equilibrium (Noble and Torczynski)") \
   MIXED(sc3, 2, (CoefficientTerms{0.64, 2.25, 7.6, 30.1}), "bounce-back in the solid's frame (Owen et al.)") \
-  DRAG(force, 2, (CoefficientTerms{1.7, 2.3, 15.2, 36, 124, 1.5}), "a drag inside the cell, in Guo's form")
+  DRAG(force, 2, (CoefficientTerms{1.7, 2.3, 15.2, 36, 124, 1.5, 0.012}), "a drag inside the cell, in Guo's form")
 // clang-format on
 
 enum class SolidOperator {
@@ -29,6 +29,7 @@ enum class SolidOperator {
 struct CoefficientTerms {
   double constant = 0, single = 0, crowded = 0, narrow = 0, tight = 0;
   double reach = 0;  ///< of the window, over the mean radius of surfaces around; 0: of any sphere its radius
+  double swept = 0;  ///< share by which k falls where a sphere moves at one viscosity a cell
   constexpr bool given() const { return constant > 0; }
 };
 
