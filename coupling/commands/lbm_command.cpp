@@ -162,7 +162,7 @@ void LbmCommand::read_state() {
         {"lbm restart", "read " + state_to_read_, "without the loads of the grains",
          "find them as they were saved",
          "write `fix hydrodynamic_force all hydrodynamic/force` right after `read_restart`, before "
-         "`run` and `dem_timestep`"});
+         "any `run`"});
   const bool moves = port_->anything_moves();
   if (moves) require_grains_of(lmp_, state_to_read_);
   if (moves || (port_->loads_restored() && grains_are_of(lmp_, state_to_read_)))
@@ -226,12 +226,22 @@ void LbmCommand::forget_the_port() {
 void LbmCommand::run(ArgumentReader& reader) {
   require_lattice(reader.who());
   const RunLine asked = read_run(reader);
+  if (asked.window >= asked.time && asked.steady)
+    throw_user_error({reader.who(), "window", fmt::format("{:g} s", asked.window),
+                      fmt::format("be shorter than the run, {:g} s", asked.time),
+                      "two windows are compared: a twentieth of the time is the default"});
+  if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
+  const double grain_step = port_->time_step();
+  run_scene(reader, asked);
+  port_->set_time_step(grain_step);  // the script's own: what it runs without water, and `substeps auto`
+}
+
+void LbmCommand::run_scene(const ArgumentReader& reader, const RunLine& asked) {
   RunRequest request;
   request.time = asked.time;
   request.steady = asked.steady;
   request.window =
       asked.window > 0 ? asked.window : asked.time / 20;  // of `until` too, however little is left
-  if (port_ == nullptr) port_ = std::make_unique<LiggghtsPort>(lmp_);
   if (request_.effects.buoyancy != Switch::off && !request_.gravity.is_zero()) refuse_double_buoyancy(lmp_);
   require_no_sets_of_grains(lmp_, reader.who());
   if (request_.wall_limit.given() && !request_.checkpoint)

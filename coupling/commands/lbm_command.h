@@ -35,6 +35,7 @@ class LbmCommand {
   void choose_lattice(const AccuracyRequest& request);
   void plan(ArgumentReader& reader);
   void run(ArgumentReader& reader);
+  void run_scene(const ArgumentReader& reader, const RunLine& asked);
   void refuse_after_start(const std::string& word) const;
   void require_lattice(const std::string& who) const;
   void forget_the_port();

@@ -67,9 +67,10 @@ void LbmRun::refuse_overlaps(const LiggghtsPort::Summary& grains) const {
 std::string LbmRun::details() {
   const lbm::Index3& n = scene_.simulation.fluid().decomposition().cells();
   const double cells = static_cast<double>(lbm::CellBox{{0, 0, 0}, n}.volume());
-  const double done = static_cast<double>(scene_.simulation.fluid().steps() - first_);
-  return lbm::progress_details(fmt::format("{:.5g} s", scene_.simulation.time_si()), cells, done,
-                               MPI_Wtime() - start_, scene_.simulation.health_text(extremes_));
+  const long made = scene_.simulation.fluid().steps() - first_;
+  return lbm::progress_details(fmt::format("{:.5g} s", scene_.simulation.time_si()), cells,
+                               static_cast<double>(made - rested_steps()), MPI_Wtime() - start_,
+                               scene_.simulation.health_text(extremes_));
 }
 
 void LbmRun::check(long step) {
@@ -228,7 +229,7 @@ std::string LbmRun::table(double wall) {
       scene_.port.anything_moves()
           ? static_cast<double>(made) * scene_.simulation.substeps() * static_cast<double>(grains_)
           : 0;
-  return time_table(scene_.simulation, made, grain_steps, wall);
+  return time_table(scene_.simulation, made, rested_steps(), grain_steps, wall);
 }
 
 /// What TRT does to the drag of grains as fast as these were, where it is more than a few
@@ -243,8 +244,9 @@ std::optional<std::string> LbmRun::drag_note() const {
     return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "
-      "water along so fast has too much drag (7 % at 5, 49 % at 30); `lbm collision trt_comoving` leaves "
-      "less than half of it (docs/what_goes_wrong.md)",
+      "water along so fast has too much drag (2 to 5 % at 5, 6 to 16 % at 10); `lbm "
+      "collision "
+      "trt_comoving` keeps within 2 % (docs/what_goes_wrong.md)",
       speed, fastest_grain_);
 }
 
@@ -303,7 +305,7 @@ void LbmRun::conclude(const RunRequest& request, const lbm::RunEnd& end, Progres
   if (request.steady)
     say("lbm run: " + lbm::steadiness_text(end.steady, scene_.simulation.units().time_to_si(made)));
   say(where_time_went);
-  if (const long rested = scene_.simulation.rested_steps() - rested_; rested > 0)
+  if (const long rested = rested_steps(); rested > 0)
     say(fmt::format("lbm run: water at rest that nothing moves: no lattice in {} of {:.0f} steps", rested,
                     made));
   if (const auto note = drag_note()) say(*note);

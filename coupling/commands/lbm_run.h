@@ -56,6 +56,8 @@ class LbmRun final : private lbm::RunSteps {
   GuardReading reading(const lbm::FluidExtremes& fluid) const;
   std::string with_last_state(const std::string& reason) const;
   std::string table(double wall);
+  /// The steps of this run whose water was at rest, without a lattice.
+  long rested_steps() const { return scene_.simulation.rested_steps() - rested_; }
   void conclude(const RunRequest& request, const lbm::RunEnd& end, ProgressLine& progress);
   std::optional<std::string> drag_note() const;
   std::optional<std::string> weight_note() const;

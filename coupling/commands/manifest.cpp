@@ -145,11 +145,13 @@ std::vector<std::string> manifest(const CoupledSimulation& simulation, const Lig
   return lines;
 }
 
-std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall) {
+std::string time_table(CoupledSimulation& simulation, long steps, long rested, double grain_steps,
+                       double wall) {
   const MPI_Comm communicator = simulation.fluid().decomposition().communicator();
   const bool averaged = simulation.method() != nullptr;
+  const double updates = static_cast<double>(steps - rested);
   double bare = 1e300;
-  for (int n = 0; n < 3 && !averaged; ++n) {
+  for (int n = 0; n < 3 && !averaged && updates > 0; ++n) {
     MPI_Barrier(communicator);
     const double start = MPI_Wtime();
     simulation.fluid().bare_update();
@@ -179,11 +181,13 @@ std::string time_table(CoupledSimulation& simulation, long steps, double grain_s
   if (averaged)
     text += fmt::format("{} in {}: water {:.2f} times the time of the grains", count_text(steps, "step"),
                         duration_text(wall), (parts[0] + parts[2]) / std::max(parts[3], 1e-9));
+  else if (updates == 0)
+    text += fmt::format("{} in {}: water at rest", count_text(steps, "step"), duration_text(wall));
   else
     text += fmt::format("{} in {}: fluid {:.1f} MLUPS, {:.0f} % of the memory's speed (measured now)",
                         count_text(steps, "step"), duration_text(wall),
-                        all_cells * count / std::max(parts[0], 1e-9) * 1e-6,
-                        100 * bare * count / std::max(parts[0], 1e-9));
+                        all_cells * updates / std::max(parts[0], 1e-9) * 1e-6,
+                        100 * bare * updates / std::max(parts[0], 1e-9));
   if (grain_steps > 0)
     text +=
         fmt::format("; grains {:.2f} M grain steps a second", grain_steps / std::max(parts[3], 1e-9) * 1e-6);

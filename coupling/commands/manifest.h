@@ -23,7 +23,9 @@ std::string resolution_note(const LiggghtsPort::Summary& grains, double spacing)
 std::string sizes_text(const LiggghtsPort::Summary& grains, double spacing);
 
 /// Where the time went, as a table: each part in seconds, milliseconds a step and share, the slowest rank's.
-/// `steps` of the fluid, `grain_steps` steps of single grains, `wall` seconds in all. Collective.
-std::string time_table(CoupledSimulation& simulation, long steps, double grain_steps, double wall);
+/// `steps` of the fluid, of which `rested` had no lattice, `grain_steps` steps of single grains, `wall`
+/// seconds in all. Collective.
+std::string time_table(CoupledSimulation& simulation, long steps, long rested, double grain_steps,
+                       double wall);
 
 }  // namespace suffuse::coupling

@@ -249,7 +249,8 @@ Vec3 GrainQuestions::mean_load(int groupbit) const {
   FixHydrodynamicForce& fix = force_fix(lmp_);
   double sums[4] = {0, 0, 0, 0};
   for (int i = 0; i < lmp_->atom->nlocal; ++i) {
-    if ((lmp_->atom->mask[i] & groupbit & fix.groupbit) == 0) continue;
+    const int groups = lmp_->atom->mask[i];
+    if ((groups & groupbit) == 0 || (groups & fix.groupbit) == 0) continue;
     for (int a = 0; a < 3; ++a) sums[a] += fix.load()[FixHydrodynamicForce::kLoadValues * i + a];
     sums[3] += 1;
   }

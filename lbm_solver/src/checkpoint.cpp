@@ -87,24 +87,33 @@ void read_labels(Fluid& fluid, const Hdf5File& file) {
 constexpr const char* kUnits = "/spacing_and_time_step";
 
 void write_units(const Units& units, Hdf5File& file, bool writes) {
-  file.create_array<double>(kUnits, {2});
-  const std::vector<double> values = {units.spacing(), units.time_step()};
-  file.write(kUnits, {{2}, {0}, {writes ? size(2) : 0}}, writes ? values : std::vector<double>{});
+  const std::vector<double> values = {units.spacing(), units.time_step(), units.density()};
+  const std::size_t count = values.size();
+  file.create_array<double>(kUnits, {count});
+  file.write(kUnits, {{count}, {0}, {writes ? count : 0}}, writes ? values : std::vector<double>{});
 }
 
-/// States of earlier versions say nothing of them.
+/// States of earlier versions say nothing of them, or of the spacing and the time step only.
 void require_units(const Units& units, const Hdf5File& file, const std::string& path) {
   if (!file.exists(kUnits)) return;
-  if (file.extents(kUnits) != std::vector<std::size_t>{2})
-    throw_user_error({"fluid restart " + path, kUnits, "damaged", "be two numbers", "take another state"});
-  const std::vector<double> saved = file.read<double>(kUnits, {{2}, {0}, {2}});
-  const double now[2] = {units.spacing(), units.time_step()};
-  for (std::size_t n = 0; n < 2; ++n)
-    if (!(std::abs(saved[n] - now[n]) <= 1e-9 * now[n]))
-      throw_user_error({"fluid restart " + path, n == 0 ? "spacing" : "time step",
-                        fmt::format("{:g}", now[n]),
-                        fmt::format("be {:g} as in the run that saved it", saved[n]),
-                        n == 0 ? "m" : "s: it follows from viscosity, spacing and relaxation time"});
+  struct Unit {
+    const char* name;
+    double now;
+    const char* hint;
+  };
+  const Unit all[] = {
+      {"spacing", units.spacing(), "m"},
+      {"time step", units.time_step(), "s: it follows from viscosity, spacing and relaxation time"},
+      {"density", units.density(), "kg/m^3: pressures and forces follow from it"}};
+  const std::vector<std::size_t> found = file.extents(kUnits);
+  if (found.size() != 1 || found[0] < 2 || found[0] > std::size(all))
+    throw_user_error(
+        {"fluid restart " + path, kUnits, "damaged", "be two or three numbers", "take another state"});
+  const std::vector<double> saved = file.read<double>(kUnits, {found, {0}, found});
+  for (std::size_t n = 0; n < saved.size(); ++n)
+    if (!(std::abs(saved[n] - all[n].now) <= 1e-9 * all[n].now))
+      throw_user_error({"fluid restart " + path, all[n].name, fmt::format("{:g}", all[n].now),
+                        fmt::format("be {:g} as in the run that saved it", saved[n]), all[n].hint});
 }
 
 }  // namespace
@@ -152,7 +161,7 @@ void load_state(Fluid& fluid, const std::string& path, const Units* units) {
   const std::string storage = file.text_attribute("/", "storage"),
                     wanted = name_of(fluid.settings().precision);
   if (storage != wanted)
-    throw_user_error({"fluid restart " + path, "storage", storage, "be " + wanted + " as in this run",
+    throw_user_error({"fluid restart " + path, "precision", storage, "be " + wanted + " as in this run",
                       "set precision to " + storage});
   if (units != nullptr) require_units(*units, file, path);
   fluid.set_progress(0, false);

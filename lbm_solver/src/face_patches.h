@@ -23,7 +23,13 @@ struct FaceContext {
 /// anti-bounce-back drops the shear stress at the face and bends the pressure over a width of the channel
 /// (docs/decisions/fluid-pressure-faces.md).
 ///
-/// Walls and velocities (`fill`, `fold`): bounce-back. A link of cell x in direction i leads out of the box.
+/// Walls and velocities (`fill`, `fold`): bounce-back, f_opposite = f_i - 6 w_i rho c_i . u. A cell of a
+/// velocity face lets in what its straight link (a third) and its four diagonal ones (a sixth each) push.
+/// Along the edge with a wall one of these belongs to the wall, along that with another velocity face half of
+/// one is the other's: the straight link makes up for it, so that a face lets in its area times its velocity,
+/// whatever its sides are.
+///
+/// Links of walls and velocities: A link of cell x in direction i leads out of the box.
 /// Its two places are (x + c_i, slot i), where an odd step puts what leaves and looks for what enters, and
 /// (x, slot opposite(i)), where an even step does.
 template <class T>
@@ -76,8 +82,13 @@ class FacePatches {
   void extend(Populations<T>& populations, const FaceConditions& faces, const FaceContext& context) const;
 
   void add(const Patch& patch, const Index3& cells, bool wall_across_x);
+  /// u - u of the face that `cell` touches besides the velocity face of the patch, times the share of the
+  /// push along the straight link that is missing there; summed over such faces.
+  Vec3 missing_velocity(const Patch& patch, const FaceConditions& faces, const Index3& cell) const;
 
   std::vector<Patch> patches_, near_patches_;
+  CellBox whole_;                                  ///< this rank's cells, from its own corner
+  std::array<double, kFaces> missing_at_edges_{};  ///< by the face that is met; 0 where it is not this rank's
   std::array<FaceMoments, kFaces> moments_;
 };
 

@@ -67,6 +67,29 @@ FluidPoint ReferenceFluid::after_collision(const Index3& cell) const {
   return {density, settings_.collision.incompressible ? momentum : Vec3(momentum / density)};
 }
 
+double ReferenceFluid::lost_at_edges(const Index3& cell, int straight) const {
+  const Vec3 outward = velocity_of(straight);
+  double lost = 0;
+  for (int i = 1; i < kDirections && outward.squaredNorm() == 1; ++i) {
+    const Vec3 across = velocity_of(i) - outward;  // of a diagonal link: along the face
+    if (across.squaredNorm() != 1 || velocity_of(i).squaredNorm() != 2) continue;
+    const FaceCondition *own = nullptr, *side = nullptr;
+    for (int a = 0; a < 3; ++a) {
+      const auto at = static_cast<std::size_t>(a);
+      const int next = cell[at] + kVelocity[i][a];
+      if (next >= 0 && next < cells_[at]) continue;
+      const FaceCondition& met = settings_.faces[static_cast<std::size_t>(face_at(a, next > 0))];
+      (outward[a] != 0 ? own : side) = &met;
+    }
+    if (own == nullptr || side == nullptr || own->kind != FaceKind::velocity || own->velocity.isZero(0))
+      continue;
+    if (side->kind == FaceKind::no_slip) lost += 6 * kWeight[i] * outward.dot(own->velocity);
+    if (side->kind == FaceKind::velocity)
+      lost += 3 * kWeight[i] * outward.dot(own->velocity - side->velocity);
+  }
+  return lost;
+}
+
 double ReferenceFluid::entering(const Index3& cell, int direction) {
   Index3 source, crossed{0, 0, 0};
   for (std::size_t a = 0; a < 3; ++a) {
@@ -83,7 +106,7 @@ double ReferenceFluid::entering(const Index3& cell, int direction) {
     if (one.kind == FaceKind::no_slip) return left;
     const Vec3 wall = (one.velocity + two.velocity) / 2;
     const double density = settings_.collision.incompressible ? 1 : after_collision(cell).density;
-    return left - 6 * kWeight[out] * density * velocity_of(out).dot(wall);
+    return left - density * (6 * kWeight[out] * velocity_of(out).dot(wall) + lost_at_edges(cell, out));
   }
   if (rule.action == LinkRule::Action::anti_bounce) {
     const double density = (one.density + two.density) / 2;

@@ -11,7 +11,9 @@ bool Steadiness::check(const MeanMotion& now) {
   if (last_) {
     const double speed = now.flow.norm(), change = (now.flow - last_->flow).norm();
     change_ = speed > 0 ? change / speed : 0;
-    steady = change <= share_ * speed &&
+    // Water that has not been set in motion yet is not steady.
+    const bool flows = speed > 0 || now.carried.norm() > 0;
+    steady = flows && change <= share_ * speed &&
              (now.carried - last_->carried).norm() <= share_ * std::max(speed, now.carried.norm());
   }
   last_ = now;

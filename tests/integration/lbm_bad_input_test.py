@@ -129,6 +129,7 @@ CASES = [
     (WET + "lbm force gravity 0 0 1e300\n" + RUN, ["gravity = 0 0 1e+300", "cells a step"]),
     (WET + "lbm force pressure_gradient 1e20 0 0\n" + RUN, ["pressure_gradient = 1e+20 0 0", "cells a step"]),
     (WET + "lbm run 1e-3 until steady 1e300\n", ["until steady = 1e+300", "below 1"]),
+    (WET + "lbm run 1e-3 until steady 0.1 window 1e-3\n", ["window = 0.001 s", "be shorter than the run, 0.001 s"]),
     (WET + "lbm run until nan\n", ["time = nan", "be a number"]),
     (WET + "lbm run until -1\n", ["time = -1", "> 0"]),
     (WET + "lbm run until\n", ["time", "be given"]),

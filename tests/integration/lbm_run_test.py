@@ -68,7 +68,7 @@ def check_drag_note(program):
     note = "note: grains moved at up to"
     with scratch() as folder:
         for collision, said in (("trt", True), ("trt_comoving", False)):
-            screen = program.must_run(wet_box() + WATER + f"lbm collision {collision}\nlbm run 4e-3\n", folder)
+            screen = program.must_run(wet_box() + WATER + f"lbm collision {collision}\nlbm run 8e-3\n", folder)
             expect((note in screen) == said, f"with {collision}: {screen[-600:]}")
 
 
@@ -250,8 +250,35 @@ def check_steady_and_grains(program):
         expect(abs(masses[-1] / (1000 * box) - 1) < 1e-3, f"a deleted grain stays solid: {masses}")
         screen = program.must_run(empty + "lbm run 2 until steady 0.05 window 2e-3\n", folder, "steady")
         expect("lbm run: steady after" in screen, f"never steady:\n{screen[-800:]}")
+        # A head that comes later: water that stands still until then is not steady.
+        late = wet_box(grains=0) + WATER + "variable late equal 0.1*(f_hydrodynamic_force>9e-3)\nlbm boundary zlo pressure v_late zhi pressure 0\n"
+        screen = program.must_run(late + "lbm run 2 until steady 0.05 window 2e-3\n", folder, "late")
+        steady_after = float(re.search(r"lbm run: steady after (\S+) s", screen).group(1))
+        expect(steady_after > 11e-3, f"steady after {steady_after} s, before the water has been moved for two windows")
         screen = program.must_run(wet_box() + WATER + "run 100\nlbm plan 0.5\nlbm run 1e-3\n", folder, "plan")
         expect("lbm plan: 0.5 s are" in screen and "GB for the fluid" in screen, "no plan")
+
+
+def check_groups(program):
+    """The mean force on a group is that on its own grains."""
+    grains = "create_atoms 1 single 1e-3 2e-3 1e-3 units box\ncreate_atoms 1 single 3e-3 2e-3 3e-3 units box\n" \
+        "set type 1 density 2650\nset group all diameter 1e-3\nset atom 2 diameter 6e-4\ngroup coarse id 1\ngroup fine id 2\n"
+    monitor = "lbm monitor m every 1e-3 file m.csv solid_force mean_force all mean_force coarse mean_force fine\n"
+    with scratch() as folder:
+        program.must_run(wet_box(grains=0) + WATER + grains + "lbm boundary zlo pressure 0.5 zhi pressure 0\n" + monitor + "lbm run 4e-3\n", folder)
+        series = columns(pathlib.Path(folder) / "m.csv")
+    whole, total, coarse, fine = (series[f"{name}_z_n"][-1] for name in ("solid_force", "mean_force_all", "mean_force_coarse", "mean_force_fine"))
+    expect(coarse > fine > 0, f"mean forces {coarse} N on the large grain and {fine} N on the small one")
+    # Grains' loads have the buoyancy of the water's weight on top of the fluid's force; the mean of two steps differs from the last one.
+    expect(abs(coarse + fine - 2 * total) < 1e-6 * total, f"{coarse} N and {fine} N are not 2 x {total} N (solid_force {whole} N)")
+
+
+def check_own_time_step(program):
+    """What the script runs without water afterwards has the script's time step, and so does the next choice of substeps."""
+    with scratch() as folder:
+        screen = program.must_run(wet_box(grains=4) + WATER + 'lbm run 1e-3\nprint "STEP $(dt)"\nlbm run 1e-3\nprint "STEP $(dt)"\n', folder)
+    steps = [float(word) for word in re.findall(r"^STEP (\S+)", screen, re.M)]
+    expect(steps == [1e-6, 1e-6], f"time steps of {steps} s after two lbm run, with 1e-6 s in the script")
 
 
 def main():
@@ -260,6 +287,8 @@ def main():
     if program.ranks == 1:  # its numbers are the same on all
         check_drag_note(program)
     check_closed_box(program)
+    check_groups(program)
+    check_own_time_step(program)
     check_lost_flow(program)
     check_changed_lines(program)
     check_restart(program)

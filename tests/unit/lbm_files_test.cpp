@@ -123,11 +123,30 @@ TEST_CASE("a state of another size or storage type is refused") {
   save_state(started(settings_for(Precision::double_precision), MPI_COMM_WORLD), path.string());
   Fluid single(settings_for(Precision::float_precision), Decomposition::balanced(MPI_COMM_WORLD, kCells));
   CHECK_THROWS_WITH(load_state(single, path.string()),
-                    Catch::Contains("storage = double") && Catch::Contains("set precision to double"));
+                    Catch::Contains("precision = double") && Catch::Contains("set precision to double"));
   Fluid larger(settings_for(Precision::double_precision), Decomposition::balanced(MPI_COMM_WORLD, {9, 7, 9}));
   CHECK_THROWS_WITH(load_state(larger, path.string()), Catch::Contains("8 7 9") && Catch::Contains("9 7 9"));
   CHECK_THROWS_WITH(load_state(larger, (folder() / "absent.h5").string()),
                     Catch::Contains("readable HDF5 file"));
+}
+
+TEST_CASE("a state goes on only in the units in which it was saved") {
+  const std::filesystem::path path = folder() / "units.h5";
+  UnitsRequest request;
+  request.spacing = 1e-3;
+  request.time_step = 0.01;
+  const Units saved(request);
+  Fluid fluid = started(settings_for(Precision::double_precision), MPI_COMM_WORLD);
+  save_state(fluid, path.string(), &saved);
+  CHECK_NOTHROW(load_state(fluid, path.string(), &saved));
+  request.density = 1025;
+  const Units salt(request);
+  CHECK_THROWS_WITH(load_state(fluid, path.string(), &salt),
+                    Catch::Contains("density = 1025, must be 1000 as in the run that saved it"));
+  request.density = 1000;
+  request.spacing = 2e-3;
+  const Units coarse(request);
+  CHECK_THROWS_WITH(load_state(fluid, path.string(), &coarse), Catch::Contains("spacing = 0.002"));
 }
 
 TEST_CASE("fields are written in SI, and a series that is continued keeps what came before") {

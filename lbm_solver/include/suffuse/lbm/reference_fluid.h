@@ -38,6 +38,9 @@ class ReferenceFluid {
 
   std::size_t index(const Index3& cell) const;
   FluidPoint after_collision(const Index3& cell) const;
+  /// What diagonal links beside `straight` do not push into a cell of a moving velocity face, as they meet a
+  /// wall or another velocity as well.
+  double lost_at_edges(const Index3& cell, int straight) const;
   double entering(const Index3& cell, int direction);
 
   FluidSettings settings_;
