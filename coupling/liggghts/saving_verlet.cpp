@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <typeinfo>
+#include <vector>
 
 #include "../commands/interruption.h"
 #include "../commands/saved_set.h"
@@ -44,6 +46,23 @@ constexpr std::chrono::seconds kProgressEvery{30};
 bool some_fix_tells_progress(LAMMPS_NS::LAMMPS* lmp) {
   for (int i = 0; i < lmp->modify->nfix; ++i)
     if (std::string_view(lmp->modify->fix[i]->style) == "stress/servo") return true;
+  return false;
+}
+
+/// LIGGGHTS would leave a fix that has come since the last set-up out of the run, or call it uninitialised.
+void require_set_up_fixes(const LAMMPS_NS::LAMMPS* lmp) {
+  const std::vector<std::string> ours = registered_styles();
+  for (int i = 0; i < lmp->modify->nfix; ++i) {
+    const LAMMPS_NS::Fix& fix = *lmp->modify->fix[i];
+    if (fix.just_created != 0 && std::ranges::binary_search(ours, std::string("fix ") + fix.style))
+      throw_user_error({"run", "pre", "no", fmt::format("be yes: fix {} is new and not set up yet", fix.id),
+                        "drop `pre no`"});
+  }
+}
+
+bool has_words(int count, char** words, std::string_view first, std::string_view second) {
+  for (int n = 0; n + 1 < count; ++n)
+    if (first == words[n] && second == words[n + 1]) return true;
   return false;
 }
 
@@ -130,6 +149,8 @@ void SavingVerlet::run(int steps) {
 }
 
 void run_watched(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
+  const bool not_set_up = lmp->update->first_update != 0 && has_words(narg, arg, "pre", "no");
+  if (not_set_up) require_set_up_fixes(lmp);
   LAMMPS_NS::Integrate* const before = lmp->update->integrate;
   if (before == nullptr || typeid(*before) != typeid(LAMMPS_NS::Verlet))
     return run_until_stopped(lmp, narg, arg);
@@ -148,6 +169,8 @@ void run_watched(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   auto* const watched = new SavingVerlet(lmp, {});
   lmp->update->integrate = watched;
   const PutBack put_back{lmp->update, before, watched};
+  // LIGGGHTS's own, which tells the integrator what to tally, is left out by `pre no`.
+  if (not_set_up) watched->init();
   run_until_stopped(lmp, narg, arg);
 }
 
@@ -174,6 +197,7 @@ void restart_set(LAMMPS_NS::LAMMPS* lmp, int narg, char** arg) {
   }
   delete update->integrate;
   update->integrate = integrate.release();
+  if (update->first_update != 0) update->integrate->init();  // which `run N pre no` leaves out
 }
 
 void require_no_sets_of_grains(LAMMPS_NS::LAMMPS* lmp, const std::string& who) {

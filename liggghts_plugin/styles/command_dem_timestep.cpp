@@ -70,6 +70,7 @@ std::string describe(const suffuse::PairLaw& law, const suffuse::CriticalGrain& 
 void CommandDemTimestep::command(int narg, char** arg) {
   suffuse::ArgumentReader reader("dem_timestep", narg, arg, 0);
   suffuse::require_si_units(lmp, "dem_timestep");
+  suffuse::require_three_dimensions(lmp, "dem_timestep");
   double share = 0;
   const std::string mode = reader.word("rayleigh SHARE or check");
   if (mode == "rayleigh")
@@ -87,7 +88,8 @@ void CommandDemTimestep::command(int narg, char** arg) {
     throw_user_error({"dem_timestep", "simulation box", "none", "exist", "insert the grains first"});
 
   suffuse::require_single_spheres(lmp, "dem_timestep");
-  lmp->init();  // properties are looked up as a run does, and masses are those that integration will use
+  // Properties are looked up as a run does, and masses are those that integration will use.
+  suffuse::init_keeping_restart_records(lmp);
   const auto grains = suffuse::grain_statistics(lmp, 1);
   if (grains.count == 0)
     throw_user_error(

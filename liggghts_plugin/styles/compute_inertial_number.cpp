@@ -45,7 +45,9 @@ ComputeInertialNumber::ComputeInertialNumber(LAMMPS* lmp_in, int& iarg, int narg
 void ComputeInertialNumber::init() {
   ContactCompute::init();
   // Between runs a script may have numbered the steps anew or changed their length.
-  if (lengths_step_ < 0 || lengths_step_ > update->ntimestep || dt_ != update->dt) remember_box();
+  const bool goes_on = run_end_ == update->ntimestep && lengths_step_ <= run_end_;
+  if (lengths_step_ < 0 || !goes_on || dt_ != update->dt) remember_box();
+  if (update->whichflag != 0) run_end_ = update->laststep;  // not where a command sets up
 }
 
 void ComputeInertialNumber::remember_box() {

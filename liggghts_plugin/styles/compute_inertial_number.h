@@ -36,7 +36,8 @@ class ComputeInertialNumber : public ContactCompute {
   double rate_ = 0;  // 1/s
   std::array<double, 3> lengths_{};
   bigint lengths_step_ = -1;
-  double dt_ = 0;  // s, then
+  double dt_ = 0;        // s, then
+  bigint run_end_ = -1;  // of the last run
 };
 
 }  // namespace LAMMPS_NS

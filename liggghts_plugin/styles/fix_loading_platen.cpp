@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "atom.h"
 #include "comm.h"
@@ -62,6 +61,7 @@ std::vector<double> read_bounds(suffuse::ArgumentReader& reader) {
 FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(kPlaten, narg, arg, 3);
   suffuse::require_si_units(lmp, kPlaten);
+  suffuse::require_three_dimensions(lmp, kPlaten);
   if (atom->radius_flag == 0 || atom->rmass == nullptr)
     throw_user_error({kPlaten, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
   drive_.damping_ratio = 0.5;
@@ -203,12 +203,13 @@ void FixLoadingPlaten::take_drive() {
   drive_.load = *stress_ * area();
   drive_.mass = share * grains.solid_volume * grains.mean_density;
   // A run that goes on has the mass that the run began with, which grains may have left since.
-  if (const double restored = std::exchange(restored_mass_, 0); restored > 0) drive_.mass = restored;
+  if (restored_mass_ > 0) drive_.mass = restored_mass_;
   if (given_mass_ > 0) drive_.mass = given_mass_;
   drive_.most_speed = given_speed_ > 0 ? given_speed_ : speed * std::sqrt(*stress_ / grains.mean_density);
 }
 
 void FixLoadingPlaten::setup(int) {
+  restored_mass_ = 0;  // not in init, which a command between the line and the run may call as well
   press();
 }
 

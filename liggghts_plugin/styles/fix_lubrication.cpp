@@ -9,6 +9,7 @@
 
 #include "atom.h"
 #include "comm.h"
+#include "domain.h"
 #include "force.h"
 #include "modify.h"
 #include "neigh_list.h"
@@ -75,6 +76,7 @@ double smallest_radius(LAMMPS* lmp) {
 FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(kLubrication, narg, arg, 3);
   suffuse::require_si_units(lmp, kLubrication);
+  suffuse::require_three_dimensions(lmp, kLubrication);
   while (!reader.done()) {
     if (reader.keyword("viscosity"))
       film_.viscosity = reader.positive("viscosity");
@@ -167,6 +169,11 @@ void FixLubrication::init() {
         {kLubrication, "newton", "on", "be off", "write `newton off` at the start of the script"});
   if (neighbor->style == 2)
     throw_user_error({kLubrication, "neighbor style", "multi", "be bin or nsq", "write `neighbor SKIN bin`"});
+  for (const Plane& wall : walls_)
+    if (domain->periodicity[wall.axis] != 0)
+      throw_user_error({kLubrication, "walls", fmt::format("{} {:g}", kPlaneWords[wall.axis], wall.at),
+                        "not lie across a periodic axis: films would form on one side alone",
+                        "write `boundary` with f along this axis, or leave the wall out"});
   const double smallest = smallest_radius(lmp);
   if (smallest > 0 && neighbor->contactDistanceFactor < required_distance_factor(smallest) * (1 - 1e-9))
     throw_user_error({kLubrication, "smallest radius", fmt::format("{:g}", smallest),

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "comm.h"
 #include "compute.h"
@@ -105,21 +104,31 @@ void FixStressServo::init() {
 
   pressure_ = modify->compute[modify->find_compute(pressure_id_.data())];
   pressure_->addstep(update->ntimestep);  // so that the virial is there at setup
-  const auto grains = suffuse::grain_statistics(lmp, groupbit);
-  memory_.grains.count = static_cast<double>(grains.count);
-  memory_.grains.density = grains.mean_density;
-  memory_.grains.solid_volume = grains.solid_volume;
-  memory_.grains.diameter = arguments_.diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::mass)
-    memory_.grains.diameter = grains.mass_mean_diameter;
-  if (arguments_.diameter_kind == suffuse::MeanDiameter::number)
-    memory_.grains.diameter = grains.number_mean_diameter;
+  take_grains(grains_now());
   if (!arguments_.approach_given)
     arguments_.settings.approach_share = suffuse::grains_have_friction(lmp) ? kFrictionalApproach : 1;
-  if (restored_ &&
-      restored_grains_.count == memory_.grains.count)  // sums of the same grains in another order
-    memory_.grains = restored_grains_;
-  set_static_window();
+}
+
+/// Sums of the same grains in another order stay as they were. Other grains are another sample, which has yet
+/// to be static.
+void FixStressServo::take_grains(const suffuse::ServoGrains& grains) {
+  if (suffuse::differ_by_rounding(memory_.grains, grains)) return;
+  memory_.grains = grains;
+  memory_.window = {};
+}
+
+suffuse::ServoGrains FixStressServo::grains_now() const {
+  const auto statistics = suffuse::grain_statistics(lmp, groupbit);
+  suffuse::ServoGrains grains;
+  grains.count = static_cast<double>(statistics.count);
+  grains.density = statistics.mean_density;
+  grains.solid_volume = statistics.solid_volume;
+  grains.diameter = arguments_.diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::mass)
+    grains.diameter = statistics.mass_mean_diameter;
+  if (arguments_.diameter_kind == suffuse::MeanDiameter::number)
+    grains.diameter = statistics.number_mean_diameter;
+  return grains;
 }
 
 void FixStressServo::set_static_window() {
@@ -139,7 +148,10 @@ void FixStressServo::reset_dt() {
 }
 
 void FixStressServo::setup(int) {
-  if (seen_step_ >= 0 && (seen_step_ != update->ntimestep || seen_dt_ != update->dt)) memory_.window = {};
+  set_static_window();  // by now fixes further down have scaled their masses
+  const bool counted_anew = seen_step_ >= 0 && (seen_step_ != update->ntimestep || seen_dt_ != update->dt);
+  if (counted_anew || memory_.window.start > static_cast<double>(update->ntimestep) * update->dt)
+    memory_.window = {};
   sampler_->setup(0);
   measure_stress();
   measure_network();
@@ -186,11 +198,7 @@ void FixStressServo::choose_interval() {
 
 /// A lost sample may well have the target's stress. Grains that an insertion adds are taken up.
 void FixStressServo::check_sample() {
-  if (memory_.network.grains > memory_.grains.count) {
-    const auto grains = suffuse::grain_statistics(lmp, groupbit);
-    memory_.grains.count = static_cast<double>(grains.count);
-    memory_.grains.solid_volume = grains.solid_volume;
-  }
+  if (memory_.network.grains > memory_.grains.count) take_grains(grains_now());
   suffuse::require_sound_sample(who(), {memory_.stress.allFinite() && memory_.shear.allFinite(), void_ratio(),
                                         memory_.grains.count, &memory_.network});
 }
@@ -363,7 +371,6 @@ void FixStressServo::restart(char* buffer) {
     return;
   }
   memory_ = suffuse::unpacked(record.values);
-  std::swap(memory_.grains, restored_grains_);  // taken up in init if they are the same grains
   if (memory_.state.phase == servo::Phase::done)
     memory_.state.phase = servo::Phase::holding;  // to an end further on
   restored_ = true;

@@ -52,6 +52,8 @@ class FixStressServo : public Fix {
   void check_sample();
   void choose_interval();
   double inertial_size() const;
+  suffuse::ServoGrains grains_now() const;
+  void take_grains(const suffuse::ServoGrains& grains);
   suffuse::ServoStanding standing() const;
   suffuse::Vec3 lengths() const;
   double inertial_number() const;
@@ -69,7 +71,6 @@ class FixStressServo : public Fix {
   bigint seen_step_ = -1;  // the last one, and its length: a script may change both between runs
   double seen_dt_ = 0;
   bool restored_ = false;
-  suffuse::ServoGrains restored_grains_;  // of a restart file
   bool rate_note_given_ = false;
   FixContactSampler* sampler_ = nullptr;
   class Compute* pressure_ = nullptr;

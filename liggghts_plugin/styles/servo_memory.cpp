@@ -1,5 +1,6 @@
 #include "servo_memory.h"
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -32,6 +33,13 @@ void each_value(Memory& memory, const Visit& visit) {
 }
 
 }  // namespace
+
+bool differ_by_rounding(const ServoGrains& a, const ServoGrains& b) {
+  constexpr double rounding = 1e-9;
+  const auto close = [](double x, double y) { return std::abs(x - y) <= rounding * std::abs(y); };
+  return a.count == b.count && close(a.density, b.density) && close(a.solid_volume, b.solid_volume) &&
+         close(a.diameter, b.diameter);
+}
 
 std::vector<double> packed(const ServoMemory& memory) {
   std::vector<double> values;

@@ -17,6 +17,9 @@ struct ServoGrains {
   double diameter = 0;      ///< the mean that the inertial number takes, m
 };
 
+/// Are these sums of the same grains, added up in another order?
+bool differ_by_rounding(const ServoGrains& a, const ServoGrains& b);
+
 struct ServoMemory {
   servo::State state;
   Vec3 stress = Vec3::Zero();  ///< normal stresses at the last control step, Pa

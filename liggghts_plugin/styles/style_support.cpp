@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "atom.h"
 #include "comm.h"
@@ -21,6 +22,8 @@
 #include "group.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
+#include "output.h"
 #include "pair_gran.h"
 #include "suffuse/common/error.h"
 #include "suffuse/micromechanics/sphere.h"
@@ -158,7 +161,36 @@ LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS* lmp, std::string_view w
   return *granular;
 }
 
+void init_keeping_restart_records(LAMMPS* lmp) {
+  lmp->update->init();
+  lmp->force->init();
+  lmp->domain->init();
+  LAMMPS_NS::Atom* atom = lmp->atom;
+  LAMMPS_NS::Modify* modify = lmp->modify;
+  const int of_grains = std::exchange(atom->nextra_store, 0);
+  double** const extra = atom->extra;
+  atom->init();
+  const int fixes = std::exchange(modify->nfix_restart_global, 0),
+            fixes_of_grains = std::exchange(modify->nfix_restart_peratom, 0);
+  modify->init();
+  atom->nextra_store = of_grains;
+  atom->extra = extra;
+  modify->nfix_restart_global = fixes;
+  modify->nfix_restart_peratom = fixes_of_grains;
+  lmp->group->init();
+  lmp->neighbor->init();
+  lmp->comm->init();
+  lmp->output->init();
+}
+
+void require_three_dimensions(LAMMPS* lmp, std::string_view who) {
+  if (lmp->domain->dimension == 3) return;
+  throw_user_error({std::string(who), "dimension", std::to_string(lmp->domain->dimension), "be 3",
+                    "drop the line `dimension`: grains are spheres in space"});
+}
+
 void require_periodic_box(LAMMPS* lmp, std::string_view who) {
+  require_three_dimensions(lmp, who);
   if (lmp->domain->box_exist == 0)
     throw_user_error(
         {std::string(who), "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});

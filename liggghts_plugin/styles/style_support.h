@@ -78,7 +78,14 @@ void require_grains_in_group(LAMMPS_NS::LAMMPS* lmp, std::string_view who, int i
 /// Throws unless a granular pair style is defined; returns it.
 LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
-/// Throws unless the box is periodic on all faces and orthogonal.
+/// LAMMPS::init, after which fixes that are defined further down still find what a restart file that was read
+/// holds for them: LIGGGHTS forgets what no fix has claimed by then.
+void init_keeping_restart_records(LAMMPS_NS::LAMMPS* lmp);
+
+/// Throws in two dimensions, where LIGGGHTS's stresses are forces a length and its grains may be discs.
+void require_three_dimensions(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+
+/// Throws unless the box is periodic on all faces, orthogonal and of three dimensions.
 void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
 /// Throws unless the script has `units si`: our formulas and defaults are SI's.

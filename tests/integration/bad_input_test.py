@@ -14,6 +14,8 @@ SAMPLE = loose_sample(grains=30)
 OPEN_SAMPLE = loose_sample(grains=30, boundary="f f f")
 SERVO = "fix s all stress/servo "
 CGS = SAMPLE.replace("units si", "units cgs")
+FLAT = HEADER.format(boundary="f f p") + "dimension 2\nregion box block 0 4e-3 0 4e-3 -1e-4 1e-4 units box\ncreate_box 1 box\n" + \
+    MATERIAL.format(friction=0.3) + "create_atoms 1 single 1e-3 1e-3 0\nset type 1 diameter 1e-3 density 2650\ntimestep 1e-6\n"
 # Numbers 1 and 2 are one grain's, 3 and 3 are two grains'.
 DOUBLE = """grains
 
@@ -71,6 +73,8 @@ CASES = [
     (SAMPLE + "fix w all wall/gran model hertz tangential history primitive type 1 zplane 1e-3\n" + SERVO + "isotropic 200e3\nrun 10\n", ["fix = w", "unfix the wall"]),
     (SAMPLE + "delete_atoms group all\n" + SERVO + "isotropic 200e3\nrun 10\n", ["group = all", "contain grains"]),
     (SAMPLE.replace("coefficientFriction peratomtypepair 1 0.0", "coefficientFriction peratomtypepair 1 -0.3") + SERVO + "isotropic 200e3\nrun 1\n", ["coefficientFriction = -0.3", ">= 0"]),
+    (SAMPLE + SERVO + "isotropic 200e3\nrun 0\n" + SERVO + "constant_volume\nrun 10 pre no\n", ["pre = no", "fix s is new", "drop `pre no`"]),
+    (SAMPLE + "run 0\nfix p all density/scaling size 1e-3\nrun 10 pre no\n", ["pre = no", "fix p is new"]),
     (SAMPLE + "dem_timestep rayleigh 0.1\n", ["dem_timestep", "pressure = missing"]),
     (SAMPLE + "dem_timestep rayleigh 2 pressure 1e5\n", ["share = 2", "<= 1"]),
     (SAMPLE + "dem_timestep rayleigh -1 pressure 1e5\n", ["share of the Rayleigh time = -1", "> 0"]),
@@ -96,6 +100,16 @@ CASES = [
     (CGS + "fix l all lubrication viscosity 1e-3 outer 1e-5 inner 1e-7\n", ["fix lubrication", "units = cgs"]),
     (CGS + "fix d all density/scaling size 1e-3\n", ["fix density/scaling", "units = cgs"]),
     (CGS + "dem_timestep rayleigh 0.1 pressure 1e5\n", ["dem_timestep", "units = cgs"]),
+    (FLAT + "compute Z all coordination\n", ["compute coordination", "dimension = 2", "be 3"]),
+    (FLAT + "compute i all inertial/number\n", ["compute inertial/number", "dimension = 2"]),
+    (FLAT + "compute si all slipping/index\n", ["compute slipping/index", "dimension = 2"]),
+    (FLAT + "compute f all fines/layer x 3 split 1e-3 bounds 0 1e-3\n", ["compute fines/layer", "dimension = 2"]),
+    (FLAT + SERVO + "isotropic 200e3\n", ["fix stress/servo", "dimension = 2"]),
+    (FLAT + "fix h all hydrodynamic/force\n", ["fix hydrodynamic/force", "dimension = 2"]),
+    (FLAT + "fix l all lubrication viscosity 1e-3 outer 1e-5 inner 1e-7\n", ["fix lubrication", "dimension = 2"]),
+    (FLAT + "fix d all density/scaling size 1e-3\n", ["fix density/scaling", "dimension = 2"]),
+    (FLAT + "fix p all loading/platen upper xplane 1e-3 fixed\n", ["fix loading/platen", "dimension = 2"]),
+    (FLAT + "dem_timestep rayleigh 0.1 pressure 1e5\n", ["dem_timestep", "dimension = 2"]),
     (CLUMPS + "compute Z all coordination\nrun 1\n", ["compute coordination", "fix = multisphere", "single spheres"]),
     (CLUMPS + "compute Z all contact/atom\nfix h all hydrodynamic/force\nrun 1\n", ["hydrodynamic/force", "fix = multisphere"]),
     (CLUMPS + "dem_timestep rayleigh 0.1 pressure 1e5\n", ["dem_timestep", "fix = multisphere"]),

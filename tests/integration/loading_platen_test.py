@@ -121,6 +121,17 @@ def main():
         later = {name: values[-len(continued["step"]):] for name, values in through.items()}
         first = next((row for row in range(len(continued["step"])) if any(later[name][row] != continued[name][row] for name in later)), None)
         expect(first is None, f"the continued run differs from row {first}: {[(later[name][first or 0], continued[name][first or 0]) for name in later]}")
+        # `dem_timestep` leaves the platens what the restart file holds, above their lines and below.
+        # From a set saved within a run, whose mass is that of the grains at its beginning.
+        check = "timestep 1e-6\ndem_timestep check pressure 1e3\n"
+        program.must_run((setting.format("middle") + OPEN + SERIES).format(name="saving") + "restart_set states every 2000\nrun 4000\n", folder, "saving")
+        rows = {name: values[-4:] for name, values in columns(folder / "saving.csv").items()}
+        for place in ("fix lower", "fix weight"):
+            text = (setting.format("states.1/grains") + OPEN + SERIES).format(name="checked").replace(place, check + place)
+            program.must_run(text + "restart_set more every 2000\nrun 2000\n", folder, "checked")
+            again = {name: values[-4:] for name, values in columns(folder / "checked.csv").items()}
+            expect(rows["step"][0] % 2000 == 500 and rows["grains"][0] < columns(folder / "saving.csv")["grains"][0], f"no grain has left: {rows}")
+            expect(again == rows, f"dem_timestep before `{place}`: {again}, {rows} of the run that saved")
         amiss = mistakes_not_named(program, [(SETTING + SMALL + words_of, words) for words_of, words in CASES], folder)
         expect(not amiss, "\n".join(amiss))
         print(f"{program.ranks} ranks: stresses {[round(value, 1) for value in sections]} Pa, {through['fines'][-1]:.0f} of {fines_at_start} fines passed, none lost")

@@ -271,6 +271,7 @@ CASES = [
     (f"fix film all lubrication {GOOD} every 0.5", ["every = 0.5", "whole number"]),
     (f"fix film all lubrication {GOOD} walls", ["walls", "be given"]),
     (f"fix film all lubrication {GOOD} walls top", ["walls = top", "zplane Z"]),
+    (f"fix film all lubrication {GOOD} walls zplane 0 yplane 0\nrun 0", ["walls = yplane 0", "periodic axis"]),
     (f"fix film all lubrication {GOOD} walls zplane high", ["zplane = high", "be a number"]),
     (f"fix film all lubrication {GOOD}", ["newton = on", "be off"]),
     (f"neighbor 1e-4 multi\nfix film all lubrication {GOOD}\nrun 1", ["neighbor style = multi", "bin"]),
