@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""collect_results.py --analyse PROGRAM --samples FOLDER --output results.csv
+"""collect_results.py --analyse PROGRAM --samples FOLDER --output results.csv [--series series.csv]
 
 One row a number of every sample of a campaign: from Tables 4.1 and 5.1 beside what was measured (`suffuse-analyse
-reproduce`), then what else was measured at rest and in shear; each with the command that made the sample.
+reproduce`), then what else was measured at rest and in shear; each with the command that made the sample. With --series
+the curves of all shear tests too, a row every 0.1 % of axial strain (as docs/results/data/chapter_5_series.csv).
 """
 import argparse
 import csv
@@ -13,6 +14,10 @@ import tempfile
 
 COLUMNS = ("source", "case", "quantity", "measured", "thesis", "relative_difference", "command")
 AT_REST = ("unconnected_fines_share", "coordination_mechanical", "alpha_sufian_pair_halves", "fines_solid_share", "sliding_share", "rattler_share")
+
+SERIES = ("axial_strain", "deviatoric_stress_pa", "volumetric_strain", "coordination_number", "coordination_fine_coarse", "coordination_coarse_coarse",
+          "alpha_pair_halves", "sliding_share")
+STRAIN_BETWEEN = 0.001
 
 
 def rows_of(path):
@@ -67,19 +72,37 @@ def other_rows(folder, analyse):
     return found
 
 
+def curve_of(folder):
+    """The first row of a shear test, then the next one that is STRAIN_BETWEEN further."""
+    rows, last = [], None
+    for row in rows_of(folder / "shear" / "shear.csv"):
+        if last is None or float(row["axial_strain"]) >= last + STRAIN_BETWEEN:
+            last = float(row["axial_strain"])
+            rows.append({"case": folder.name, **{name: f"{float(row[name]):.5g}" for name in SERIES}})
+    return rows
+
+
+def write(path, columns, rows):
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--analyse", default="suffuse-analyse")
     parser.add_argument("--samples", required=True, type=pathlib.Path)
     parser.add_argument("--output", required=True, type=pathlib.Path)
+    parser.add_argument("--series", type=pathlib.Path)
     options = parser.parse_args()
     rows = table_rows(options, "table-4-1") + table_rows(options, "table-5-1")
-    for folder in sorted(path.parent for path in options.samples.glob("*/sample.toml")):
+    folders = sorted(path.parent for path in options.samples.glob("*/sample.toml"))
+    for folder in folders:
         rows += other_rows(folder, options.analyse)
-    with open(options.output, "w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
+    write(options.output, COLUMNS, rows)
+    if options.series:
+        write(options.series, ("case", *SERIES), [row for folder in folders if (folder / "shear" / "shear_result.csv").exists() for row in curve_of(folder)])
 
 
 if __name__ == "__main__":

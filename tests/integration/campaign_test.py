@@ -2,10 +2,12 @@
 """campaign_test.py --programs FOLDER --campaigns DIR: two tiny samples from grading to table and figure, killed twice on the way.
 
 Snakemake and all that it started are ended by SIGKILL while a sample is compressed, and the program alone while one is sheared; the same command
-again goes on from the restart files and ends with results, whose series have no gap and no row twice.
+again goes on from the restart files and ends with results, whose series have no gap and no row twice. Then a sample of one's own; other settings
+in the finished folder; and, on made-up folders, from where a step begins.
 """
 import argparse
 import csv
+import filecmp
 import os
 import pathlib
 import signal
@@ -15,6 +17,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from campaign_decisions import check_decisions  # noqa: E402
 from scenes import columns, expect  # noqa: E402
 
 
@@ -109,6 +112,51 @@ def check_mistakes(campaign):
     expect(code == 1 and "row 1" in screen and "state (loose, medium, dense)" in screen, screen)
     screen, code = campaign.run("--config", "samples=nowhere.csv")
     expect(code == 1 and "samples = nowhere.csv, must be a CSV file" in screen, screen)
+    for row, message in (("soils/mine.csv,dense,300,1,no,,", "sample = soils/mine.csv, must be a name of the gradings, or a CSV file in"),
+                         ("A20,dense,300,1,no,a b,", "A20_dense_1_a b is to be a folder"),
+                         ("A20,dense,300,1,yes,,-var friction 0.5", "-var friction, must not stand in a row that is sheared")):
+        (campaign.folder / "wrong.csv").write_text(f"sample,state,grains,seed,shear,variant,options\n{row}\n")
+        screen, code = campaign.run("--config", "samples=wrong.csv")
+        expect(code == 1 and "row 1" in screen and message in screen, screen)
+
+
+def check_own_sample(campaign, options):
+    """Continuously graded, in a folder and with a name that are easily cut: its contacts have the scene's split and the row's own friction."""
+    soils = campaign.folder / "my soils"
+    soils.mkdir()
+    (soils / "A1.5.csv").write_text("diameter_mm,percent_finer\n0.2,0\n0.25,20\n0.3,45\n0.35,70\n0.45,100\n")
+    (soils / "list.csv").write_text("sample,state,grains,seed,shear,variant,options\nA1.5.csv,loose,300,1,no,smooth,-var friction 0.1\n")
+    folder = campaign.folder / "samples" / "A1.5_loose_1_smooth"
+    screen, code = campaign.run(f"samples/{folder.name}/contacts.csv", "--configfile", str(options.campaigns / "tiny.yaml"),
+                                "--config", f"samples={soils / 'list.csv'}")
+    expect(code == 0, screen[-3000:])
+    described = dict(line.split(" = ") for line in (folder / "sample.toml").read_text().splitlines())
+    expect(described["friction"] == "0.1", f"friction {described['friction']}")
+    for friction in ("0.1", "0.3"):
+        done = subprocess.run([str(options.programs / "suffuse-analyse"), "contacts", str(folder / "isotropic.grains.dump"),
+                               str(folder / "isotropic.contacts.dump"), "--split", described["split_m"], "--friction", friction,
+                               "--output", str(soils / f"{friction}.csv")], capture_output=True, text=True)
+        expect(done.returncode == 0, done.stderr)
+    expect(filecmp.cmp(folder / "contacts.csv", soils / "0.1.csv", shallow=False), "contacts with another friction or split than the sample's")
+    expect(not filecmp.cmp(folder / "contacts.csv", soils / "0.3.csv", shallow=False), "friction changes nothing in this sample")
+
+
+def check_other_settings(campaign, tiny):
+    """In a finished folder: what they change is done again, and no more."""
+    for settings, again in ((["restart_every=4000", "ranks=2"], []), (["axial_strain=0.012"], ["shear"]), (["equilibrium_most=10000"], ["equilibrate", "shear"])):
+        screen, code = campaign.run(*tiny, "--nolock", "--dry-run", "--config", *settings)
+        done = [rule for rule in ("prepare", "equilibrate", "shear") if f"rule {rule}:" in screen]
+        expect(code == 0 and done == again, f"{settings} does {done} again, not {again}:\n{screen}")
+
+
+def check_shear_again(campaign, tiny):
+    """To another strain: no snapshot of the one before is in its table."""
+    screen, code = campaign.run("samples/A20_dense_32452867/shear/classes.csv", *tiny, "--nolock", "--config", "axial_strain=0.005", "snapshots=0 0.005 1e9")
+    expect(code == 0, screen[-3000:])
+    shear = campaign.folder / "samples" / "A20_dense_32452867" / "shear"
+    snapshots = sorted(path.name for path in shear.glob("shear_*.grains.dump"))
+    states = len((shear / "classes.csv").read_text().splitlines()) - 1
+    expect(snapshots == ["shear_0.005.grains.dump", "shear_0.grains.dump"] and states == 2, f"{states} states of {snapshots}")
 
 
 def main():
@@ -120,6 +168,7 @@ def main():
         folder = pathlib.Path(scratch)
         campaign = Campaign(options, folder)
         tiny = ("--configfile", str(options.campaigns / "tiny.yaml"))
+        check_decisions(options.campaigns)
         check_plan(campaign)
         check_mistakes(campaign)
         killed_on_the_way(campaign, tiny)
@@ -136,6 +185,9 @@ def main():
         expect(strains[0] < 0.05 * strains[-1], f"the part before the kill is gone: begins at a strain of {strains[0]}")
         screen, code = campaign.run(*tiny, "--nolock")
         expect(code == 0 and "Nothing to be done" in screen, "a finished campaign is done again")
+        check_other_settings(campaign, tiny)
+        check_shear_again(campaign, tiny)
+        check_own_sample(campaign, options)
     print("campaign: killed twice, continued, results complete")
 
 
