@@ -77,9 +77,13 @@ ColumnPlan plan(const std::vector<std::string>& meanings, const std::vector<std:
 
 /// Our names for the columns that the user named.
 void apply_renames(std::vector<std::string>& meanings, const std::vector<std::string>& columns,
-                   const std::map<std::string, std::string>& renamed, const std::vector<std::string>& names) {
+                   const std::map<std::string, std::string>& renamed, const std::vector<std::string>& names,
+                   const char* dump, const std::string& who) {
   for (const auto& [ours, theirs] : renamed) {
     if (std::find(names.begin(), names.end(), ours) == names.end()) continue;
+    if (std::find(columns.begin(), columns.end(), theirs) == columns.end())
+      throw_user_error({who, fmt::format("--column {} of the dump of {}", ours, dump), theirs,
+                        fmt::format("be one of {}", fmt::join(columns, ", ")), ""});
     std::replace(meanings.begin(), meanings.end(), ours, std::string());
     for (std::size_t k = 0; k < columns.size(); ++k)
       if (columns[k] == theirs) meanings[k] = ours;
@@ -87,6 +91,12 @@ void apply_renames(std::vector<std::string>& meanings, const std::vector<std::st
 }
 
 }  // namespace
+
+std::vector<std::string> known_columns() {
+  std::vector<std::string> names = kContactNames;
+  names.insert(names.end(), kGrainNames.begin(), kGrainNames.end());
+  return names;
+}
 
 bool ColumnPlan::has_vector(int first) const {
   const auto at = static_cast<std::size_t>(first);
@@ -118,14 +128,14 @@ ColumnPlan plan_contact_columns(const std::vector<std::string>& columns,
     const auto k = static_cast<std::size_t>(number_of_value(column));
     meanings.push_back(k == 0 ? column : k <= values.size() ? values[k - 1] : "");
   }
-  apply_renames(meanings, columns, renamed, kContactNames);
+  apply_renames(meanings, columns, renamed, kContactNames, "contacts", who);
   return plan(meanings, kContactNames);
 }
 
 ColumnPlan plan_grain_columns(const std::vector<std::string>& columns,
-                              const std::map<std::string, std::string>& renamed) {
+                              const std::map<std::string, std::string>& renamed, const std::string& who) {
   std::vector<std::string> meanings = columns;
-  apply_renames(meanings, columns, renamed, kGrainNames);
+  apply_renames(meanings, columns, renamed, kGrainNames, "grains", who);
   return plan(meanings, kGrainNames);
 }
 

@@ -51,11 +51,15 @@ struct ColumnPlan {
 /// A value that is not used here has an empty name. Throws UserError on an unknown word.
 std::vector<std::string> names_of_pair_values(const std::vector<std::string>& words, const std::string& who);
 
-/// Plans for the columns of a dump. `renamed`: our name → the file's. Unknown columns are left out.
+/// Our names of a contact's and of a grain's quantities; no name is both's.
+std::vector<std::string> known_columns();
+
+/// Plans for the columns of a dump. `renamed`: our name → the file's. Columns that are no quantity's are left
+/// out. Throws UserError (`who` first) where a renamed column is not there.
 ColumnPlan plan_contact_columns(const std::vector<std::string>& columns,
                                 const std::vector<std::string>& words,
                                 const std::map<std::string, std::string>& renamed, const std::string& who);
 ColumnPlan plan_grain_columns(const std::vector<std::string>& columns,
-                              const std::map<std::string, std::string>& renamed);
+                              const std::map<std::string, std::string>& renamed, const std::string& who);
 
 }  // namespace suffuse::analysis

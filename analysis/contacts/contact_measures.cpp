@@ -191,6 +191,22 @@ Record ContactMeasurer::measure(const Snapshot& snapshot) {
   return record;
 }
 
+std::string warning_of_split(double split, const Snapshot& snapshot, const std::string& who,
+                             const std::string& what) {
+  const std::vector<double> diameters =
+      sorted_diameters(snapshot.whole ? snapshot.whole->packing : snapshot.packing);
+  if (diameters.empty()) return {};
+  const std::string sizes =
+      fmt::format("the grains have {:.4g} to {:.4g} m", diameters.front(), diameters.back());
+  if (split > diameters.back())
+    throw_user_error({who, what, fmt::format("{:g} m", split),
+                      fmt::format("be at most the largest grain, {:.4g} m", diameters.back()),
+                      "all grains would be fines: " + sizes});
+  if (split > diameters.front()) return {};
+  return fmt::format("warning: no grain is smaller than {} = {:g} m ({}): no fines, no alpha", what, split,
+                     sizes);
+}
+
 double split_in_the_gap(const Packing& packing, const std::string& who) {
   const std::vector<double> diameters = sorted_diameters(packing);
   double widest = 1, split = 0;

@@ -49,6 +49,12 @@ class ContactMeasurer {
   micromechanics::ForceDistribution forces_;
 };
 
+/// A split beside the sizes of the grains, a mistaken unit most likely. Throws UserError, of `who` and
+/// `what`, where all grains are smaller, so that none is coarse; returns a warning where none is, so that
+/// there are no fines, and nothing else. Of a region all grains of the snapshot count.
+std::string warning_of_split(double split, const Snapshot& snapshot, const std::string& who,
+                             const std::string& what);
+
 /// The geometric mean of the two neighbouring diameters of a packing that are furthest apart as a ratio, m: a
 /// split in the gap of a gap-graded soil. Throws UserError where the widest ratio is below 1.3: no gap.
 double split_in_the_gap(const micromechanics::Packing& packing, const std::string& who);

@@ -78,6 +78,10 @@ std::vector<ScreenTable::Column> screen_columns() {
 }
 
 void tell_settings(const ContactsOptions& options, const Snapshot& first) {
+  const auto& split = options.measures.split;
+  if (const std::string warning = split ? warning_of_split(*split, first, kContacts, "--split") : "";
+      !warning.empty())
+    fmt::print("{}\n", warning);
   if (options.measures.split)
     fmt::print("fines: diameter below {:.6g} m", *options.measures.split);
   else
@@ -89,7 +93,7 @@ void tell_settings(const ContactsOptions& options, const Snapshot& first) {
 
 void run(ContactsOptions& options) {
   check(options);
-  options.outputs.require_new(kContacts);
+  options.outputs.require_new(kContacts, options.read.files);
   const std::unique_ptr<SnapshotSeries> series = options.read.open();
   std::optional<CsvWriter> csv, pdf;
   std::optional<JsonWriter> json;

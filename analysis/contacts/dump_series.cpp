@@ -134,7 +134,7 @@ bool DumpSeries::next(Snapshot& snapshot) {
 
 void DumpSeries::read_grains(Packing& packing) {
   const DumpHeader& header = grains_.header();
-  const ColumnPlan plan = plan_grain_columns(header.columns, settings_.columns);
+  const ColumnPlan plan = plan_grain_columns(header.columns, settings_.columns, settings_.who);
   using namespace grain_place;
   if (!plan.has[id]) grains_.file().complain("the grains have no column id", "dump id radius x y z …");
   if (!plan.has[radius] && !plan.has[diameter])

@@ -82,6 +82,9 @@ std::unique_ptr<SnapshotSeries> open_series(const std::vector<std::string>& file
       if (paths.size() > 1)
         throw_user_error(
             {settings.who, "files", path, "be the only one, as an HDF5 file", "give each run by itself"});
+      if (!settings.columns.empty() || !settings.contact_words.empty())
+        throw_user_error({settings.who, "files", path, "be dumps for --column and --pair-values",
+                          "leave these out: in an HDF5 file quantities have their names"});
       return std::make_unique<Hdf5Series>(path, settings);
     }
     DumpFile file(path, settings.who);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "contacts/contact_columns.h"
 #include "contacts/contact_measures.h"
 #include "contacts/dump_file.h"
 #include "files/number_parser.h"
@@ -44,11 +47,17 @@ void ReadOptions::add_to(CLI::App& command, const std::string& files_option) {
 }
 
 std::unique_ptr<SnapshotSeries> ReadOptions::open() {
+  const std::vector<std::string> known = known_columns();
   for (const std::string& text : renamed) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
       throw_user_error({settings.who, "--column", text, "be OURS=THEIRS", "for example radius=c_r"});
-    settings.columns[text.substr(0, equals)] = text.substr(equals + 1);
+    const std::string ours = text.substr(0, equals);
+    if (std::find(known.begin(), known.end(), ours) == known.end())
+      throw_user_error({settings.who, "--column", ours, fmt::format("be one of {}", fmt::join(known, ", ")),
+                        "OURS=THEIRS: our name of the quantity stands first"});
+    if (!settings.columns.emplace(ours, text.substr(equals + 1)).second)
+      throw_user_error({settings.who, "--column", ours + " twice", "be given once", ""});
   }
   for (const std::string_view word : words_of(pair_values)) settings.contact_words.emplace_back(word);
   if (!(settings.friction >= 0))

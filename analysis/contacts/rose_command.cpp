@@ -163,7 +163,7 @@ void check(const RoseOptions& options) {
 
 void run(RoseOptions& options) {
   check(options);
-  options.outputs.require_new(kRose);
+  options.outputs.require_new(kRose, options.read.files);
   const SphericalGrid grid(options.cells);
   const Sums sums = gathered(options, grid);
   const std::vector<Rose> roses = roses_of(sums.plane, options.order);

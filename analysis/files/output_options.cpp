@@ -1,10 +1,16 @@
 #include "files/output_options.h"
 
+#include <fmt/format.h>
+#include <glob.h>
+
 #include <filesystem>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "suffuse/common/error.h"
 #include "suffuse/common/paths.h"
+#include "suffuse/common/safe_file.h"
 
 namespace suffuse::analysis {
 namespace {
@@ -15,6 +21,50 @@ void refuse_if_there(const std::string& who, const std::string& option, const st
   if (!file.empty() && !empty_folder && is_there(file))
     throw_user_error({who, option, file, "not be there yet",
                       "give another name, or --overwrite to replace what is there"});
+}
+
+/// A file that is written, and by which option.
+struct Output {
+  std::string option, file;
+};
+
+/// Under which names a file is written: its own, and SafeFile's until it is complete.
+std::vector<std::string> names_while_written(const std::string& file) {
+  return {one_name_of(file), one_name_of(file + ".part")};
+}
+
+void refuse_one_file_twice(const std::string& who, const std::vector<Output>& outputs) {
+  std::map<std::string, const Output*> written;
+  for (const Output& output : outputs)
+    for (const std::string& name : names_while_written(output.file))
+      if (const auto [at, is_new] = written.emplace(name, &output); !is_new)
+        throw_user_error({who, output.option, output.file,
+                          fmt::format("be another file than that of {}", at->second->option),
+                          "one would replace the other"});
+}
+
+/// The files that a name or a pattern stands for.
+std::vector<std::string> files_of(const std::string& input) {
+  std::vector<std::string> files{input};
+  if (input.find_first_of("*?[") == std::string::npos) return files;
+  glob_t found{};
+  if (glob(input.c_str(), 0, nullptr, &found) == 0)
+    for (std::size_t k = 0; k < found.gl_pathc; ++k) files.emplace_back(found.gl_pathv[k]);
+  globfree(&found);
+  return files;
+}
+
+void refuse_inputs(const std::string& who, const std::vector<Output>& outputs,
+                   const std::vector<std::string>& inputs) {
+  std::set<std::string> read;
+  for (const std::string& input : inputs)
+    for (const std::string& file : files_of(input))
+      if (is_file(file)) read.insert(one_name_of(file));
+  for (const Output& output : outputs)
+    for (const std::string& name : names_while_written(output.file))
+      if (read.contains(name))
+        throw_user_error(
+            {who, output.option, output.file, "not be a file that is read", "give another name"});
 }
 
 }  // namespace
@@ -30,10 +80,16 @@ CLI::Option* OutputOptions::add(CLI::App& command, const std::string& name, std:
   return command.add_option(name, file, description);
 }
 
-void OutputOptions::require_new(const std::string& who, const std::vector<std::string>& more) const {
+void OutputOptions::require_new(const std::string& who, const std::vector<std::string>& inputs,
+                                const std::vector<std::string>& more) const {
+  std::vector<Output> outputs;
+  for (const auto& [option, file] : files_)
+    if (!file->empty()) outputs.push_back({option, *file});
+  for (const std::string& file : more) outputs.push_back({"file", file});
+  refuse_one_file_twice(who, outputs);
+  refuse_inputs(who, outputs, inputs);
   if (overwrite_) return;
-  for (const auto& [option, file] : files_) refuse_if_there(who, option, *file);
-  for (const std::string& file : more) refuse_if_there(who, "file", file);
+  for (const Output& output : outputs) refuse_if_there(who, output.option, output.file);
 }
 
 }  // namespace suffuse::analysis

@@ -11,6 +11,10 @@ std::string full_precision(double value) {
   return fmt::format("{}", value);
 }
 
+std::string number_cell(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? full_precision(*value) : std::string();
+}
+
 void CsvWriter::write(const Record& record) {
   std::string line;
   if (!has_header_) {
@@ -22,7 +26,7 @@ void CsvWriter::write(const Record& record) {
   for (const Entry& entry : record) {
     if (!first) line += ',';
     first = false;
-    if (entry.value) line += full_precision(*entry.value);
+    line += number_cell(entry.value);
   }
   file_.write(line + '\n');
 }
@@ -30,9 +34,11 @@ void CsvWriter::write(const Record& record) {
 void JsonWriter::write(const Record& record) {
   std::string object = has_rows_ ? ",\n{" : "[\n{";
   has_rows_ = true;
-  for (const Entry& entry : record)
+  for (const Entry& entry : record) {
+    const std::string number = number_cell(entry.value);
     object += fmt::format("{}\"{}\": {}", object.back() == '{' ? "" : ", ", entry.name,
-                          entry.value && std::isfinite(*entry.value) ? full_precision(*entry.value) : "null");
+                          number.empty() ? "null" : number);
+  }
   file_.write(object + '}');
 }
 
@@ -62,7 +68,8 @@ std::string ScreenTable::text() const {
   const auto add_row = [&](const Record& record) {
     for (const Column& column : columns_) {
       const std::optional<double> value = value_of(record, column.name);
-      text += fmt::format("{:>{}} ", value ? fmt::format("{:.5g}", *value) : "-", kWidth);
+      text += fmt::format("{:>{}} ", value && std::isfinite(*value) ? fmt::format("{:.5g}", *value) : "-",
+                          kWidth);
     }
     text += '\n';
   };

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,5 +60,8 @@ class ScreenTable {
 
 /// The shortest text that reads back as the same number; a whole number without a point.
 std::string full_precision(double value);
+
+/// The same as a cell of a table: empty where there is no number, or none that is finite.
+std::string number_cell(const std::optional<double>& value);
 
 }  // namespace suffuse::analysis

@@ -105,7 +105,7 @@ void check(ConstrictionRequest& options) {
 
 void run(ConstrictionRequest& options) {
   check(options);
-  options.outputs.require_new(kConstriction);
+  options.outputs.require_new(kConstriction, {options.grading, options.packing});
   micromechanics::ConstrictionLimits limits;
   micromechanics::StabilityLimits stability;
   set_limits(options.limits, kConstriction, stability, &limits);

@@ -21,7 +21,7 @@ struct GradingOptions {
 };
 
 void run(const GradingOptions& options) {
-  options.outputs.require_new(kGrading);
+  options.outputs.require_new(kGrading, {options.file});
   micromechanics::StabilityLimits limits;
   set_limits(options.limits, kGrading, limits);
   const micromechanics::Grading grading = grading_of_file(options.file, kGrading);

@@ -13,7 +13,7 @@ namespace {
 void read_rows(DumpFile& file, const DumpHeader& header, const std::string& path, const std::string& who,
                bool positions, GrainSnapshot& snapshot) {
   using namespace grain_place;
-  const ColumnPlan plan = plan_grain_columns(header.columns, {});
+  const ColumnPlan plan = plan_grain_columns(header.columns, {}, who);
   const bool has_size = plan.has[radius] || plan.has[diameter];
   if (!has_size)
     throw_user_error(

@@ -25,7 +25,7 @@ struct HydraulicOptions {
 };
 
 void run(HydraulicOptions& options) {
-  options.outputs.require_new(kHydraulic);
+  options.outputs.require_new(kHydraulic, {options.file});
   if (options.alpha) options.input.alphas = {{*options.alpha, ""}};
   check_hydraulic(options.input, kHydraulic);
   const std::vector<HydraulicRow> rows =

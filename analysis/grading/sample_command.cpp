@@ -42,9 +42,10 @@ double grains_wanted(const SampleOptions& options, const std::optional<NamedGrad
   if (options.grains.empty()) return std::ceil(for_coarse);
   if (options.grains == "thesis") return named ? named->thesis_grains : std::ceil(for_coarse);
   double grains = 0;
-  if (!parse_number(std::string_view(options.grains), grains) || !(grains >= 2 && grains <= 1e9))
-    throw_user_error({kSample, "--grains", options.grains, "be 2 to 1e9, or thesis", ""});
-  return std::round(grains);
+  if (!parse_number(std::string_view(options.grains), grains) || !(grains >= 2 && grains <= 1e9) ||
+      grains != std::round(grains))
+    throw_user_error({kSample, "--grains", options.grains, "be a whole number, 2 to 1e9, or thesis", ""});
+  return grains;
 }
 
 /// m: beyond them it is another length unit.
@@ -70,7 +71,8 @@ void check(const SampleOptions& options) {
       throw_user_error({kSample, "--box-height", "without --box-edge", "go with it", "give both, in m"});
   }
   must(options.density > 0, "--density", options.density, "be > 0");
-  must(options.coarse >= 1 && options.coarse <= 1e9, "--coarse", options.coarse, "be 1 to 1e9");
+  must(options.coarse >= 1 && options.coarse <= 1e9 && options.coarse == std::round(options.coarse),
+       "--coarse", options.coarse, "be a whole number, 1 to 1e9");
   must(options.scale > 0 && std::isfinite(options.scale), "--scale", options.scale, "be > 0");
   must(options.affordable >= 1, "--affordable", options.affordable, "be >= 1");
   if (options.classes < 2 || options.classes > 200)
@@ -244,7 +246,7 @@ std::vector<std::string> files_of(const SampleOptions& options) {
 
 void run(const SampleOptions& options) {
   check(options);
-  options.outputs.require_new(kSample, files_of(options));
+  options.outputs.require_new(kSample, {options.grading}, files_of(options));
   const std::optional<NamedGrading> named =
       is_there(options.grading) ? std::nullopt : named_grading(options.grading, kSample);
   const Plan plan = plan_of(options, named);

@@ -23,6 +23,12 @@ std::string lowered(std::string_view text) {
   return lower;
 }
 
+/// `in` is the inch where it stands last or in brackets, as a unit does; elsewhere a preposition.
+bool is_inch(std::string_view behind) {
+  const std::size_t next = behind.find_first_not_of(" .\"'");
+  return next == behind.npos || behind[next] == ')' || behind[next] == ']';
+}
+
 /// A name's words; signs become words: % percent, # no, Greek mu u, Greek phi phi.
 Words words_of(const std::string& name) {
   static const std::array<std::pair<const char*, const char*>, 7> signs{{{"%", " percent "},
@@ -38,11 +44,12 @@ Words words_of(const std::string& name) {
       text.replace(at, std::string_view(sign).size(), word);
   Words words;
   std::string word;
-  for (const char c : lowered(text) + " ") {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      word += c;
+  text = lowered(text) + " ";
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (std::isalnum(static_cast<unsigned char>(text[k])) != 0) {
+      word += text[k];
     } else if (!word.empty()) {
-      words.insert(std::move(word));
+      if (word != "in" || is_inch(std::string_view(text).substr(k))) words.insert(std::move(word));
       word.clear();
     }
   }

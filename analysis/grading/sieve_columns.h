@@ -27,7 +27,8 @@ struct SieveColumns {
 
 /// Names are read as words, in any case, order and punctuation: "Sieve size (mm)", `sieve_mm`, `opening_um`,
 /// `diameter_m`, `radius_m`; `sieve_no`, "ASTM No."; `phi`; and "% passing", `percent_finer`,
-/// `mass_retained_g`, "Cumulative % retained", `mass_fraction`, `mass_kg`. Of several sizes a length counts,
+/// `mass_retained_g`, "Cumulative % retained", `mass_fraction`, `mass_kg`; `in` is the inch where it stands
+/// last or in brackets, not in "size in m". Of several sizes a length counts,
 /// then a number; of several amounts what passes, then coarser, then retained. Throws UserError (`who` first)
 /// where there is none, two of one kind, or a length without its unit.
 SieveColumns sieve_columns(const std::vector<std::string>& names, const std::string& path,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "files/number_parser.h"
@@ -34,6 +35,9 @@ char axis_of_record(const NumberTable& table) {
       return axis;
   return 'z';
 }
+
+constexpr const char* kOneRun =
+    "give each run by itself; of a run that went on from a restart leave out what it did again";
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -66,6 +70,9 @@ NumberTable::NumberTable(const std::string& path, const std::string& who) : path
       if (!parse_number(cells[k], value) || !std::isfinite(value))
         throw_user_error({who, fmt::format("{}, {}", where, names_[k]), fmt::format("'{}'", cells[k]),
                           "be a finite number", ""});
+      if (names_[k] == "time_s" && !columns_[k].empty() && value < columns_[k].back())
+        throw_user_error({who, fmt::format("{}, {}", where, names_[k]),
+                          fmt::format("{:g} after {:g}", value, columns_[k].back()), "not go back", kOneRun});
       columns_[k].push_back(value);
     }
   }
@@ -85,6 +92,15 @@ const std::vector<double>& NumberTable::column(std::string_view name) const {
     throw_user_error({who_, path_, fmt::format("no column {}", name), "have it",
                       "give the file of `lbm monitor` with superficial_velocity, layer_gradient and bed"});
   return *found;
+}
+
+const std::vector<double>& NumberTable::rising_column(std::string_view name) const {
+  const std::vector<double>& values = column(name);
+  const auto back = std::adjacent_find(values.begin(), values.end(), std::greater<>());
+  if (back != values.end())
+    throw_user_error({who_, fmt::format("{}, {}", path_, name),
+                      fmt::format("{:g} after {:g}", back[1], *back), "not go back", kOneRun});
+  return values;
 }
 
 std::vector<const std::vector<double>*> NumberTable::numbered(std::string_view prefix) const {

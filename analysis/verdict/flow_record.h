@@ -14,7 +14,8 @@ namespace suffuse::analysis {
 class NumberTable {
  public:
   /// Throws UserError (`who` first, then file and line) where the file cannot be read, a row is short or has
-  /// something else than finite numbers, a name is there twice, or there are no rows.
+  /// something else than finite numbers, a name is there twice, there are no rows, or time_s goes back (two
+  /// runs one behind the other).
   NumberTable(const std::string& path, const std::string& who);
 
   const std::string& path() const { return path_; }
@@ -23,6 +24,8 @@ class NumberTable {
   const std::vector<double>* find(std::string_view name) const;
   /// Throws UserError where there is none.
   const std::vector<double>& column(std::string_view name) const;
+  /// The same, of numbers that do not fall. Throws UserError where they do.
+  const std::vector<double>& rising_column(std::string_view name) const;
   /// Columns PREFIX1, PREFIX2, … as far as they go.
   std::vector<const std::vector<double>*> numbered(std::string_view prefix) const;
 

@@ -322,7 +322,9 @@ Record variables_of(const Run& run, const NumberTable& table) {
 
 void run_command(FluidisationOptions& options) {
   check(options);
-  options.outputs.require_new(kFluidisation);
+  std::vector<std::string> inputs = options.layers.files;
+  inputs.insert(inputs.end(), {options.file, options.grading});
+  options.outputs.require_new(kFluidisation, inputs);
   const NumberTable table(options.file, kFluidisation);
   const Run run = measured(options, table);
   const ResultRows rows = rows_of(options, run, table);

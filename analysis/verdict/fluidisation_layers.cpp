@@ -35,7 +35,7 @@ double at_step(const std::vector<double>& steps, const std::vector<double>& valu
 class StepRecord {
  public:
   StepRecord(const NumberTable& table, const FlowRecord& record)
-      : steps_(table.column("dem_step")), times_(table.column("time_s")) {
+      : steps_(table.rising_column("dem_step")), times_(table.column("time_s")) {
     const std::size_t layers = record.states.front().gradient.size();
     gradient_.resize(layers + 1);
     stress_.resize(record.states.front().stress.empty() ? 0 : layers);
@@ -132,14 +132,14 @@ class Files {
     for (std::size_t k = 0; k < snapshot.layers.size(); ++k) {
       const LayerMeasures& layer = snapshot.layers[k];
       const LayerNetwork& network = layer.network;
-      measures_->write(fmt::format(
-          "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.step, snapshot.time,
-          name(k, snapshot.layers.size()), bed, layer.gradient,
-          layer.stress_ratio ? full_precision(*layer.stress_ratio) : "", network.grains, network.contacts,
-          network.coordination, network.stable_share, layer.broken.net, layer.broken.gross,
-          network.sliding_share, network.strong_share, network.mean_normal_force, network.constraint_ratio,
-          to_string(hydromechanical_state(network.constraint_ratio)), network.strong_stress_share,
-          layer.median_coordination, layer.coordination_d50, layer.coordination_d85));
+      measures_->write(
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", snapshot.step,
+                      snapshot.time, name(k, snapshot.layers.size()), bed, layer.gradient,
+                      number_cell(layer.stress_ratio), network.grains, network.contacts, network.coordination,
+                      network.stable_share, layer.broken.net, layer.broken.gross, network.sliding_share,
+                      network.strong_share, network.mean_normal_force, network.constraint_ratio,
+                      to_string(hydromechanical_state(network.constraint_ratio)), network.strong_stress_share,
+                      layer.median_coordination, layer.coordination_d50, layer.coordination_d85));
     }
   }
 

@@ -45,7 +45,7 @@ void add_formula(ResultRows& rows, const char* name, double formula, double meas
 
 void run(const LiftingOptions& options) {
   check(options);
-  options.outputs.require_new(kLifting);
+  options.outputs.require_new(kLifting, {options.file});
   const NumberTable table(options.file, kLifting);
   const std::vector<double>& weight = table.column("weight_pa");
   const double porosity = table.column("porosity_at_rest").front();

@@ -113,19 +113,15 @@ const std::vector<Quantity>& quantities() {
   return rows;
 }
 
-std::string cell(const Value& value) {
-  return value ? full_precision(*value) : std::string();
-}
-
 }  // namespace
 
 std::string onset_table(const LayerResults& results, const OnsetOfRun& run) {
   std::string text = "quantity,symbol,layer,at_rest,at_onset,thesis_at_rest,thesis_at_onset,section\n";
   const auto add = [&](const char* name, const char* symbol, const std::string& layer, const Value& at_rest,
                        const Value& at_onset, const Said& said, const char* section) {
-    text += fmt::format("\"{}\",{},{},{},{},{},{},{}\n", name, symbol, layer, cell(at_rest), cell(at_onset),
-                        run.thesis_soil ? cell(said.first) : "", run.thesis_soil ? cell(said.second) : "",
-                        section);
+    text += fmt::format("\"{}\",{},{},{},{},{},{},{}\n", name, symbol, layer, number_cell(at_rest),
+                        number_cell(at_onset), run.thesis_soil ? number_cell(said.first) : "",
+                        run.thesis_soil ? number_cell(said.second) : "", section);
   };
   const std::size_t layers = results.at_rest.layers.size() - 1;
   const std::string lowest = std::to_string(layers);

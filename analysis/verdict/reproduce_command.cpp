@@ -129,6 +129,10 @@ Comparison compare(const SampleFolder& sample, const ThesisRow& row, Table table
   MeasureSettings settings;
   settings.split =
       sample.split ? sample.split : std::optional<double>(split_in_the_gap(snapshot.packing, who));
+  if (const std::string warning =
+          warning_of_split(*settings.split, snapshot, who + ": " + sample.folder, "split_m");
+      !warning.empty())
+    fmt::print("{}: {}\n", sample.folder, warning);
   const Record record = ContactMeasurer(settings).measure(snapshot);
   const auto measured = [&](const char* name) { return value_of(record, name); };
   Comparison result{&row, sample, {}, {}, {}};
@@ -221,14 +225,12 @@ void print_mean(const std::vector<Comparison>& of_row) {
 void write_csv(const std::string& path, const std::vector<Comparison>& comparisons, const std::string& who) {
   SafeFile file(path, who);
   file.write("sample,state,folder,youngs_modulus_pa,quantity,measured,thesis,relative_difference\n");
-  const auto cell = [](const std::optional<double>& value) {
-    return value ? full_precision(*value) : std::string();
-  };
   for (const Comparison& comparison : comparisons)
     for (const Compared& quantity : comparison.quantities)
       file.write(fmt::format("{},{},\"{}\",{},{},{},{},{}\n", comparison.row->sample, comparison.row->state,
-                             comparison.sample.folder, cell(comparison.sample.youngs_modulus), quantity.name,
-                             cell(quantity.measured), cell(quantity.thesis), cell(difference(quantity))));
+                             comparison.sample.folder, number_cell(comparison.sample.youngs_modulus),
+                             quantity.name, number_cell(quantity.measured), number_cell(quantity.thesis),
+                             number_cell(difference(quantity))));
   file.commit();
 }
 
@@ -242,9 +244,13 @@ const ThesisRow* row_of(const std::vector<ThesisRow>& rows, const SampleFolder& 
 void run(const ReproduceOptions& options, Table table) {
   const std::string who = table == Table::table_4_1 ? "reproduce table-4-1" : "reproduce table-5-1";
   const std::vector<ThesisRow>& rows = table == Table::table_4_1 ? thesis_table_4_1() : thesis_table_5_1();
-  options.outputs.require_new(who);
+  const std::vector<std::string> folders = find_sample_folders(options.folders, who);
+  std::vector<std::string> inputs;
+  for (const std::string& folder : folders)
+    for (const char* name : {"/sample.toml", "/*.dump*"}) inputs.push_back(folder + name);
+  options.outputs.require_new(who, inputs);
   std::vector<Comparison> comparisons;
-  for (const std::string& folder : find_sample_folders(options.folders, who)) {
+  for (const std::string& folder : folders) {
     const SampleFolder sample = read_sample_folder(folder, who);
     const std::string& name = table == Table::table_4_1 ? sample.table_4_1 : sample.table_5_1;
     if (name.empty()) continue;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -38,6 +39,7 @@ bool any(const std::vector<LayerRow>& layers, const LayerColumn& column) {
 
 void ResultRows::add(std::string quantity, std::string symbol, std::optional<double> value, std::string unit,
                      std::string source, std::string note) {
+  if (value && !std::isfinite(*value)) value.reset();  // none, in every form
   rows_.push_back(
       {std::move(quantity), std::move(symbol), std::move(unit), std::move(source), std::move(note), value});
 }
@@ -73,19 +75,16 @@ std::string ResultRows::text() const {
 void ResultRows::write_csv(const std::string& path, const std::string& who) const {
   SafeFile file(path, who + " --output");
   file.write("layer,quantity,symbol,value,unit,source,note\n");
-  const auto number = [](const std::optional<double>& value) {
-    return value ? full_precision(*value) : std::string();
-  };
   for (const Row& row : rows_) {
     const std::string quantity = row.quantity.substr(row.quantity.find_first_not_of(' '));
-    file.write(fmt::format(",\"{}\",{},{},{},\"{}\",\"{}\"\n", quantity, row.symbol, number(row.value),
+    file.write(fmt::format(",\"{}\",{},{},{},\"{}\",\"{}\"\n", quantity, row.symbol, number_cell(row.value),
                            row.unit, row.source, row.note));
   }
   for (const LayerRow& row : layers_)
     for (const LayerColumn& column : kColumns)
       if (any(layers_, column))
         file.write(fmt::format("{},\"{}\",{},{},{},\"{}\",\n", row.layer, column.quantity, column.symbol,
-                               number(row.*column.value), column.unit, column.source));
+                               number_cell(row.*column.value), column.unit, column.source));
   file.commit();
 }
 

@@ -79,9 +79,7 @@ std::string path_of(const std::vector<FabricState>& fabrics) {
 }
 
 std::vector<Row> rows_of(const ShearResponse& response) {
-  const auto number = [](std::optional<double> value) {
-    return value ? full_precision(*value) : std::string();
-  };
+  const auto& number = number_cell;
   std::vector<Row> rows{{"initial_void_ratio", number(response.initial_void_ratio)},
                         {"peak_deviatoric_stress_pa", number(response.peak_deviator)},
                         {"peak_stress_ratio", number(response.peak_ratio)},
@@ -119,7 +117,7 @@ std::vector<Row> rows_of(const ShearResponse& response) {
 }
 
 void run(const ShearOptions& options) {
-  options.outputs.require_new(kShear);
+  options.outputs.require_new(kShear, options.files);
   const auto in_range = [](const char* option, double value, double most) {
     if (!(value > 0) || !(value < most))
       throw_user_error(

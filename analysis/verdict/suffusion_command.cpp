@@ -49,11 +49,26 @@ std::vector<SuffusionState> states_of(const NumberTable& table) {
   return states;
 }
 
-ResultRows rows_of(const SuffusionOnset& onset, double largest) {
+/// The largest magnitude, and whether the water was driven down, or both ways.
+struct Driving {
+  double largest = 0;
+  std::string way;
+};
+
+Driving driving_of(const std::vector<SuffusionState>& states) {
+  double low = 0, high = 0;
+  for (const SuffusionState& state : states) {
+    low = std::min(low, state.gradient);
+    high = std::max(high, state.gradient);
+  }
+  return {std::max(high, -low), low == 0 ? "" : high == 0 ? "downwards" : "up and down, by magnitudes"};
+}
+
+ResultRows rows_of(const SuffusionOnset& onset, const Driving& driving) {
   ResultRows rows;
-  const std::string never = fmt::format("not reached; largest gradient {:.3f}", largest);
+  const std::string never = fmt::format("not reached; largest gradient {:.3f}", driving.largest);
   const auto add = [&](const std::string& name, std::optional<double> gradient, const char* source) {
-    rows.add(name, "i", gradient, "-", source, gradient ? "" : never);
+    rows.add(name, "i", gradient, "-", source, gradient ? driving.way : never);
   };
   add("gradient, fines begin to move inside", onset.inside,
       "a layer's fines content off by a twentieth of itself");
@@ -74,12 +89,10 @@ Record variables_of(const SuffusionOnset& onset) {
 }
 
 void run(const SuffusionOptions& options) {
-  options.outputs.require_new(kSuffusion);
+  options.outputs.require_new(kSuffusion, {options.file});
   const std::vector<SuffusionState> states = states_of(NumberTable(options.file, kSuffusion));
   const SuffusionOnset onset = suffusion_onset(states, kErodedShares);
-  double largest = 0;
-  for (const SuffusionState& state : states) largest = std::max(largest, state.gradient);
-  const ResultRows rows = rows_of(onset, largest);
+  const ResultRows rows = rows_of(onset, driving_of(states));
   options.outputs.write(rows, kSuffusion, [&] { return variables_of(onset); });
   fmt::print("{}", rows.text());
 }

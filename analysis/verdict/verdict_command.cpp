@@ -95,11 +95,12 @@ Grading grading_of_packing(const micromechanics::Packing& packing) {
 }
 
 /// Which grains of the sample are the fines, and why.
-void choose_split(const VerdictOptions& options, const VerdictInput& input,
-                  const micromechanics::Packing& packing, SampleFindings& sample) {
+void choose_split(const VerdictOptions& options, const VerdictInput& input, const Snapshot& snapshot,
+                  SampleFindings& sample) {
   std::string why;
-  if (const std::optional<double> given = options.split.value(packing, kVerdict)) {
+  if (const std::optional<double> given = options.split.value(snapshot.packing, kVerdict)) {
     sample.split = *given;
+    warning_of_split(sample.split, snapshot, kVerdict, "--split");  // without fines the report says so
     why = options.split.text == "gap" ? "in the widest gap of the sample's sizes" : "given";
   } else if (input.grading.gap()) {
     sample.split = std::sqrt(input.grading.gap()->finer_diameter * input.grading.gap()->coarser_diameter);
@@ -200,7 +201,7 @@ std::optional<SampleFindings> measure_sample(const VerdictOptions& options, cons
                                              const std::optional<Snapshot>& snapshot) {
   if (!snapshot) return std::nullopt;
   SampleFindings sample;
-  choose_split(options, input, snapshot->packing, sample);
+  choose_split(options, input, *snapshot, sample);
   MeasureSettings settings;
   settings.split = sample.split;
   ContactMeasurer measurer(settings);
@@ -237,7 +238,9 @@ void keep_figures(const std::string& from, const std::string& to) {
 
 void run(VerdictOptions& options) {
   check(options);
-  options.outputs.require_new(kVerdict);
+  std::vector<std::string> inputs = options.read.files;
+  inputs.insert(inputs.end(), {options.grading, options.flow});
+  options.outputs.require_new(kVerdict, inputs);
   options.constriction.fractions = fraction_names().at(options.fractions);
   options.constriction.pore = pore_names().at(options.pore);
   const std::optional<Snapshot> snapshot = judged_snapshot(options);

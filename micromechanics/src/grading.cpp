@@ -287,7 +287,7 @@ std::vector<ShapePoint> shape_curve(const Grading& grading, double finer_limit) 
   const auto add = [&](double diameter, double finer, double finer_of_four) {
     const bool known = !result.empty() && result.back().diameter == diameter &&
                        result.back().finer == finer && result.back().interval == finer_of_four - finer;
-    if (finer > 0 && finer <= finer_limit + kRounding && !known)
+    if (finer <= finer_limit + kRounding && !known)
       result.push_back({diameter, finer, finer_of_four - finer});
   };
   for (const double diameter : corners) {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "suffuse/common/error.h"
+
 namespace suffuse::micromechanics {
 
 namespace {
@@ -118,6 +120,7 @@ ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& 
   ShapeMinimum least{kInfinity, 0, 0,
                      narrow || grading.gap() ? limits.kenney_lau_narrow_finer : limits.kenney_lau_wide_finer};
   for (const ShapePoint& point : shape_curve(grading, least.finer_limit)) {
+    if (point.finer == 0) continue;  // H/F has no end there
     // Round-off of an H that is zero must not decide which of several zeros is named.
     const double ratio = std::max(0.0, point.interval / point.finer);
     if (ratio < least.ratio - 1e-12) least = {ratio, point.finer, point.diameter, least.finer_limit};
@@ -127,11 +130,16 @@ ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& 
 
 SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer) {
   // Both sizes are straight in log d between the corners of the curve, so the largest ratio is at a split
-  // where one of the two meets a corner.
+  // where one of the two meets a corner, or at an end of the splits: with all of the curve as the fine part
+  // (the corner at F = 1, where D15 of a vanishing coarse part is the largest grain), and with as little
+  // fines as `from_finer`, or as have their d85 in what is known (the corner at the end of the curve).
+  if (!(from_finer >= 0 && from_finer < 1))
+    throw_user_error({"grading", "kezdi_from_finer", fmt::format("{:g}", from_finer),
+                      "be at least 0 and below 1", "it is a share of the mass, not per cent"});
   std::vector<double> splits{from_finer};
   for (const GradingPoint& corner : grading.curve())
     for (const double split : {(corner.finer - 0.15) / 0.85, corner.finer / 0.85})
-      if (split > from_finer && split < 1) splits.push_back(split);
+      if (split > from_finer && split <= 1 + 1e-12) splits.push_back(std::min(split, 1.0));
   SplitMaximum greatest;
   for (const double split : splits) {
     const double ratio =
@@ -191,7 +199,8 @@ CriterionResult lubochkov(const Grading& grading, const StabilityLimits& limits)
   double where = 0;
   for (const double d : corners) {
     const double coarser = grading.finer_at(chi * d) - grading.finer_at(d);
-    const double finer = grading.finer_at(d) - grading.finer_at(d / chi);
+    // Rounding must not lead below the end of the curve, where nothing is known.
+    const double finer = grading.finer_at(d) - grading.finer_at(std::max(d / chi, grading.smallest()));
     if (coarser <= 1e-12) continue;
     const double value = finer > 1e-12 ? coarser / finer / std::pow(chi, 0.6) : kInfinity;
     if (value > result.value) {
@@ -209,13 +218,14 @@ namespace {
 CriterionResult split_criterion(const Grading& grading, const char* name, const char* source, double limit,
                                 double from_finer) {
   const SplitMaximum split = maximum_split_ratio(grading, from_finer);
+  const std::string where = split.finer < 1 ? percent(split.finer) : "just below 100 %";
   return {name,
           "(D15c/d85f)max",
           split.ratio > 0 ? split.ratio : kNaN,
           fmt::format("stable <= {:g}", limit),
           stable_if(split.ratio <= limit),
           source,
-          fmt::format("split at {}; {}", percent(split.finer), gap_or_continuous(grading))};
+          fmt::format("split at {}; {}", where, gap_or_continuous(grading))};
 }
 
 }  // namespace
@@ -356,8 +366,12 @@ CriterionResult li_fannin(const Grading& grading, const StabilityLimits& limits)
       least = strict;
       where = point.finer;
     }
-    least_other = std::min(least_other, point.interval / std::min(limits.li_fannin_finer, line));
   }
+  // The less strict line has its corner, at which a minimum may lie, where Kezdi's takes over.
+  for (const double end : {std::min(limits.li_fannin_finer, finer_limit), finer_limit})
+    for (const ShapePoint& point : shape_curve(grading, end))
+      if (const double line = limits.kenney_lau * point.finer; line > 0)
+        least_other = std::min(least_other, point.interval / std::min(limits.li_fannin_finer, line));
   const CriterionResult result{
       "Li and Fannin",
       fmt::format("least H/max({:g}, F)", limits.li_fannin_finer),

@@ -12,6 +12,8 @@ namespace suffuse::micromechanics {
 namespace {
 
 using Column = std::vector<double>;
+/// Numbers that are not defined everywhere.
+using PartialColumn = std::vector<std::optional<double>>;
 
 /// Means over `window` of strain about each sample; towards the ends over as much as there is on both sides.
 Column moving_mean(const Column& strain, const Column& values, double window) {
@@ -32,6 +34,20 @@ std::size_t index_of_most(const Column& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
+/// q/p', where p' is positive.
+PartialColumn ratio_of(const Column& deviator, const Column& pressure) {
+  PartialColumn ratio(deviator.size());
+  for (std::size_t k = 0; k < ratio.size(); ++k)
+    if (pressure[k] > 0) ratio[k] = deviator[k] / pressure[k];
+  return ratio;
+}
+
+/// The first sample of the largest number; none where none is defined.
+std::optional<std::size_t> peak_of(const PartialColumn& ratio) {
+  const auto peak = std::max_element(ratio.begin(), ratio.end());  // nothing is less than any number
+  return *peak ? std::optional(static_cast<std::size_t>(peak - ratio.begin())) : std::nullopt;
+}
+
 /// The first sample from which `holds` is true of all samples up to `end`; `end` if of none.
 template <class Holds>
 std::size_t first_for_good(std::size_t end, const Holds& holds) {
@@ -40,7 +56,7 @@ std::size_t first_for_good(std::size_t end, const Holds& holds) {
   return first;
 }
 
-StressReductionStages stages_of(const Column& strain, const Column& ratio, const Column& alpha,
+StressReductionStages stages_of(const Column& strain, const PartialColumn& ratio, const Column& alpha,
                                 std::size_t peak, const ShearSettings& settings) {
   const double start = alpha.front();
   const std::size_t left = first_for_good(peak + 1, [&](std::size_t k) {
@@ -99,15 +115,16 @@ ShearResponse shear_response(const ShearSeries& series, const ShearSettings& set
   const Column& strain = series.axial_strain;
   const auto mean = [&](const Column& column) { return moving_mean(strain, column, settings.window); };
   const Column deviator = mean(series.deviator), pressure = mean(series.mean_stress);
-  Column ratio(strain.size());
-  for (std::size_t k = 0; k < ratio.size(); ++k) ratio[k] = deviator[k] / pressure[k];
-  const std::size_t peak = index_of_most(ratio);
+  const PartialColumn ratio = ratio_of(deviator, pressure);
+  const std::optional<std::size_t> peak = peak_of(ratio);
 
   ShearResponse result;
   if (!series.void_ratio.empty()) result.initial_void_ratio = series.void_ratio.front();
   result.peak_deviator = deviator[index_of_most(deviator)];
-  result.strain_at_peak = strain[peak];
-  result.peak_ratio = ratio[peak];
+  if (peak) {
+    result.strain_at_peak = strain[*peak];
+    result.peak_ratio = ratio[*peak];
+  }
   result.end_ratio = ratio.back();
   result.end_strain = strain.back();
   if (!series.volumetric_strain.empty()) {
@@ -121,7 +138,8 @@ ShearResponse shear_response(const ShearSeries& series, const ShearSettings& set
     result.coordination_start = coordination.front();
     result.coordination_least = *std::min_element(coordination.begin(), coordination.end());
     result.coordination_end = coordination.back();
-    result.coordination_drop = 1 - *result.coordination_least / *result.coordination_start;
+    if (coordination.front() > 0)
+      result.coordination_drop = 1 - *result.coordination_least / *result.coordination_start;
   }
   if (!series.coarse_coordination.empty()) {
     const Column coarse = mean(series.coarse_coordination);
@@ -131,7 +149,7 @@ ShearResponse shear_response(const ShearSeries& series, const ShearSettings& set
   }
   if (!series.stress_reduction.empty()) {
     alpha = mean(series.stress_reduction);
-    result.stages = stages_of(strain, ratio, alpha, peak, settings);
+    if (peak) result.stages = stages_of(strain, ratio, alpha, *peak, settings);
     if (!series.fine_coordination.empty())
       result.fabrics = fabrics_of(strain, mean(series.fine_coordination), alpha);
   }

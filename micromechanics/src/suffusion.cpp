@@ -26,7 +26,7 @@ SuffusionOnset suffusion_onset(std::span<const SuffusionState> states,
   double largest = 0, largest_mean = 0;
   for (std::size_t n = 0; n < states.size(); ++n) {
     const SuffusionState& state = states[n];
-    largest = std::max(largest, state.gradient);
+    largest = std::max(largest, std::abs(state.gradient));
     if (!onset.inside && changed_inside(states.front(), state)) onset.inside = largest;
     for (std::size_t k = 0; k < eroded_shares.size(); ++k)
       if (!onset.eroded[k] && state.eroded_share >= eroded_shares[k]) onset.eroded[k] = largest;

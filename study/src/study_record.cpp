@@ -95,7 +95,8 @@ void write_record(const std::string& folder, const RunRecord& record) {
                                     {"wall_s", record.wall},
                                     {"core_s", record.core},
                                     {"other_cores", record.other_cores},
-                                    {"settings", record.settings}}
+                                    {"settings", record.settings},
+                                    {"program", record.program}}
                  .dump(1, ' ', false, nlohmann::json::error_handler_t::replace) +
              '\n');
   file.commit();
@@ -116,6 +117,7 @@ std::optional<RunRecord> read_record(const std::string& folder, const std::strin
     record.wall = json.at("wall_s").get<double>();
     record.core = json.at("core_s").get<double>();
     record.other_cores = json.at("other_cores").get<double>();
+    record.program = json.value("program", "");
     take_notes(record, json, folder);
     return record;
   } catch (const nlohmann::json::exception&) {

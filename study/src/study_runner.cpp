@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <numeric>
 
 #include "files/csv_cell.h"
@@ -17,6 +18,7 @@
 #include "suffuse/common/error.h"
 #include "suffuse/common/paths.h"
 #include "suffuse/common/progress.h"
+#include "suffuse/common/safe_file.h"
 #include "suffuse/common/script_variables.h"
 #include "suffuse/common/signal_watch.h"
 #include "suffuse/study/placeholder.h"
@@ -56,9 +58,10 @@ class Runner {
         at_once_(runs_at_once(study, settings)),
         table_(study, settings.time, at_once_ > 1) {
     out_ = files::absolute(settings.out).lexically_normal();
-    const std::string program = find_program(settings.program);
+    program_ = find_program(settings.program);
     first_words_ = study.launcher.words(study.ranks);
-    first_words_.push_back(program);
+    first_words_.push_back(program_);
+    if (program_.find('/') != std::string::npos) program_ = one_name_of(program_);
     check_variables();
   }
 
@@ -120,11 +123,14 @@ class Runner {
   std::optional<RunRecord> done_before(const std::string& folder, const std::string& settings) const {
     if (!settings_.resume) return std::nullopt;
     std::optional<RunRecord> record = read_record(folder, settings);
-    if (record && settings_.retry_failed && !has_results(*record)) record.reset();
+    // What failed before a preparation that was made anew may have failed for want of it.
+    const bool again = settings_.retry_failed || prepared_anew_;
+    if (record && again && !has_results(*record)) record.reset();
     return record;
   }
 
   int list_commands() {
+    prepared_anew_ = study_.preparation && !preparation_done();
     if (study_.preparation)
       print_command((out_ / "prepare").string(),
                     command(study_.preparation->script, study_.preparation->variables));
@@ -173,20 +179,28 @@ class Runner {
     if (end.how == ProcessEnd::How::interrupted) return std::nullopt;
     if (study_.launcher.is_srun()) end.core = end.wall * study_.ranks;
     RunRecord record = record_of(end, (files::path(folder) / kRunLog).string(), study_.time_limit, settings);
+    record.program = program_;
     write_record(folder, record);
     return record;
   }
 
+  std::string preparation_folder() const { return (out_ / "prepare").string(); }
+  std::string preparation_settings() const { return settings_of(study_.preparation->variables, prepared_); }
+
+  /// One that failed is none: no run can do without it.
+  bool preparation_done() const {
+    const std::optional<RunRecord> record = done_before(preparation_folder(), preparation_settings());
+    return record && has_results(*record);
+  }
+
   void prepare() {
-    if (!study_.preparation) return;
-    const std::string folder = (out_ / "prepare").string();
-    const std::string settings = settings_of(study_.preparation->variables, prepared_);
-    std::optional<RunRecord> record = done_before(folder, settings);
-    if (record) return;
+    if (!study_.preparation || preparation_done()) return;
+    prepared_anew_ = true;
+    const std::string folder = preparation_folder();
     fmt::print("preparing: ");
     std::fflush(stdout);
     const std::vector<std::string> words = command(study_.preparation->script, study_.preparation->variables);
-    record = keep_record(run_timed(process_in(folder, words)), folder, settings);
+    const auto record = keep_record(run_timed(process_in(folder, words)), folder, preparation_settings());
     if (!record) return;  // interrupted
     fmt::print("{}\n", duration_text(record->wall));
     if (!has_results(*record))
@@ -224,6 +238,7 @@ class Runner {
     const StudyCase& run = cases_[number];
     const std::string folder = folder_of(run);
     if (const auto record = done_before(folder, settings_of(variables_of(run), script_))) {
+      if (!record->program.empty() && record->program != program_) ++runs_of_others_[record->program];
       take_up(number, *record);
       return;
     }
@@ -311,6 +326,10 @@ class Runner {
     if (table_.size() == 0) return;
     fmt::print("\n{}\n{}\n{}\n\n{}\n", study_.title, table_.text(), table_.verdict(),
                (out_ / "study.csv").string());
+    for (const auto& [program, runs] : runs_of_others_)
+      fmt::print(
+          "warning: {} taken as {} left {}, not done with {}: --out FOLDER does all with one program\n",
+          count_text(runs, "run"), program, runs == 1 ? "it" : "them", program_);
     std::fflush(stdout);
     bool has_error = false;
     for (const StudyRow& row : table_.rows()) has_error = has_error || (row.error && !row.run.is_reference);
@@ -341,8 +360,10 @@ class Runner {
   StudyTable table_;
   files::path out_;
   std::vector<std::string> first_words_;
-  std::string script_, prepared_;  ///< fingerprints
-  bool has_values_ = false;
+  std::string program_;                                 ///< by the one name of its file
+  std::map<std::string, std::int64_t> runs_of_others_;  ///< taken up, by another program than this one's
+  std::string script_, prepared_;                       ///< fingerprints
+  bool has_values_ = false, prepared_anew_ = false;
 };
 
 }  // namespace

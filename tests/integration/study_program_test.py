@@ -239,6 +239,48 @@ def check_unsteady(study):
     study.write("in.tiny", TINY)
 
 
+def check_failed_preparation(study):
+    """A preparation that has failed is done again on --resume, and no run goes on without it."""
+    study.write("in.tiny", TINY)
+    # Fails as long as the study's folder has no file `there`.
+    study.write("in.before", f'variable value index 1\nvariable line file {study.folder}/there\n'
+                'print "quantity,value" file result.csv\nprint "answer,${value}" append result.csv\n')
+    file = study.write("prepared.toml", TINY_STUDY.replace("[sweep]", '[fixed]\nfile = "{prepare}/result.csv"\n[sweep]') +
+                       '[prepare]\nscript = "in.before"\nvariables = { value = 9 }\n')
+    for words in ((), ("--resume",)):
+        study.must_refuse([file, "--out", "prepared", "--no-figure", *words], "[prepare]", f"{study.folder}/there")
+        check(not list((study.folder / "prepared" / "runs").iterdir()), f"{words}: runs without their preparation")
+    study.write("there", "a line\n")
+    out = study.must_run(file, "--out", "prepared", "--no-figure", "--resume")
+    check("preparing: " in out and [row["status"] for row in study.rows("prepared")] == ["finished"] * 2, out)
+    check("preparing: " not in study.must_run(file, "--out", "prepared", "--no-figure", "--resume"), "prepared twice")
+    # Runs that had failed while the preparation was not there are done with it, those that had finished stay.
+    (study.folder / "prepared" / "prepare" / "run.json").unlink()
+    for value, status in ((1, "failed"), (2, "finished")):
+        record = study.folder / "prepared" / "runs" / f"value={value}" / "run.json"
+        record.write_text(record.read_text().replace('"finished"', f'"{status}"'))
+    check("2 runs, 1 of them done" in study.must_run(file, "--out", "prepared", "--dry-run", "--resume"), "a run that failed counts as done")
+    out = study.must_run(file, "--out", "prepared", "--no-figure", "--resume")
+    check("preparing: " in out and "[1/2]" in out and "[2/2]" not in out, out)
+
+
+def check_another_program(study):
+    """Runs of another program are taken with a warning; the same one by another name is the same."""
+    study.write("in.tiny", TINY)
+    file = study.write("program.toml", TINY_STUDY)
+    suffuse = study.program.parent / "suffuse"
+    (study.folder / "bin").mkdir()
+    (study.folder / "bin" / "same").symlink_to(suffuse)
+    study.write("bin/other", f'#!/bin/sh\nexec {suffuse} "$@"\n')
+    (study.folder / "bin" / "other").chmod(0o755)
+    study.must_run(file, "--out", "program", "--no-figure")
+    for program in (suffuse, "bin/../bin/same"):
+        check("warning" not in study.must_run(file, "--out", "program", "--no-figure", "--resume", "--program", program), f"{program} is the same")
+    study.write(file, TINY_STUDY.replace("[1, 2]", "[1, 2, 3]"))
+    out = study.must_run(file, "--out", "program", "--no-figure", "--resume", "--program", "bin/other")
+    check(f"warning: 2 runs taken as {suffuse.resolve()} left them, not done with {study.folder}/bin/other" in out and "[3/3]" in out and "[1/3]" not in out, out)
+
+
 def check_mistakes(study):
     study.write("in.tiny", TINY)
     study.write("expected.csv", "quantity,value\nother,1\n")
@@ -300,6 +342,8 @@ def main():
         check_mistakes(study)
         check_several_at_once(study)
         check_unsteady(study)
+        check_failed_preparation(study)
+        check_another_program(study)
         check_ranks(study, pathlib.Path(options.mpirun).resolve())
         check_study(study, python_with_figures() is not None)
     print("suffuse-study: runs, failures, interruption, resumption and mistakes as described")

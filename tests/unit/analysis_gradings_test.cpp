@@ -134,6 +134,21 @@ TEST_CASE("decimal marks are told from all numbers of a file") {
   }
 }
 
+TEST_CASE("`in` before a unit is no unit, and is the inch where it stands for one") {
+  const auto largest = [](const char* name) {
+    return read(std::string(name) + ",percent_finer\n1,0\n2,100\n").largest();
+  };
+  CHECK(largest("size in m") == Approx(2));
+  CHECK(largest("size in metres") == Approx(2));
+  CHECK(largest("diameter in mm") == Approx(2e-3));
+  for (const char* name : {"sieve_in", "size in in", "Sieve (in)", "Opening [in.] of the mesh",
+                           "size in inches", "\"sieve, in.\""})
+    CHECK(largest(name) == Approx(2 * 25.4e-3));
+  CHECK_THAT(refusal("size in nm,percent_finer\n1,0\n2,100\n"), Catch::Contains("name its unit"));
+  // "in" says nothing of a sieve's numbers either.
+  CHECK(read("sieve no. in ASTM,percent_finer\n200,0\n4,100\n").largest() == Approx(4.75e-3));
+}
+
 TEST_CASE("ASTM sieves by number and by inches") {
   CHECK(astm_sieve_opening("No. 200") == Approx(0.075e-3));
   CHECK(astm_sieve_opening("#40") == Approx(0.425e-3));

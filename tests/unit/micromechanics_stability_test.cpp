@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
@@ -81,6 +82,45 @@ TEST_CASE("Kezdi: beside a gap the coarse side is at its upper end and the fine 
   CHECK(split.finer == Approx(0.15 / 0.85));
 }
 
+TEST_CASE("Kezdi: a coarse end is judged up to the split that leaves nothing but its largest grain") {
+  // 90 % from 0.1 to 0.2 mm, the rest up to 1 mm: D15 of the coarse part rises to 1 mm as the split nears the
+  // end, while d85 of the fine part stays below 0.1 × 2^(0.85/0.9) mm.
+  const Grading tail = Grading::from_curve(Points{{1e-4, 0}, {2e-4, 0.9}, {1e-3, 1}});
+  const SplitMaximum split = maximum_split_ratio(tail);
+  CHECK(split.ratio == Approx(10 / std::pow(2, 0.85 / 0.9)));  // 5.20
+  CHECK(split.finer == 1);
+  CHECK(kezdi(tail).verdict == Verdict::unstable);
+  CHECK_THAT(kezdi(tail).note, Catch::Contains("split at just below 100 %"));
+  // No split of a fine net of them has more, and those near the end tend to it.
+  double near_the_end = 0, most = 0;
+  for (int k = 0; k < 10000; ++k) {
+    const double f = k / 10000.0;
+    near_the_end = tail.diameter_above(f + 0.15 * (1 - f)) / tail.diameter_at(0.85 * f);
+    most = std::max(most, near_the_end);
+  }
+  CHECK(most <= split.ratio);
+  CHECK(near_the_end == Approx(split.ratio).epsilon(2e-3));  // 1e-4 of the mass: 1.4e-3 of ln 5 in D15
+  // The same on a curve of which the finest half is not known.
+  const Grading open = Grading::from_curve(Points{{1.5e-4, 0.5}, {2e-4, 0.9}, {1e-3, 1}});
+  CHECK(maximum_split_ratio(open).ratio == Approx(1e-3 / open.diameter_at(0.85)));
+  CHECK(sherard(open).verdict == Verdict::unstable);
+  // Of one that is known above 85 % alone nothing can be said.
+  CHECK(maximum_split_ratio(Grading::from_curve(Points{{1e-4, 0.9}, {1e-3, 1}})).ratio == 0);
+}
+
+TEST_CASE("Kezdi: a fine end is judged from the first split of which both sizes are known") {
+  // From the smallest grain on: D15 of all over it, 10^(1 × 0.15/0.2), larger than what follows.
+  const Grading fine_end = Grading::from_curve(Points{{1e-4, 0}, {1e-3, 0.2}, {2e-3, 1}});
+  CHECK(maximum_split_ratio(fine_end).ratio == Approx(std::pow(10, 0.15 / 0.2)));
+  CHECK(maximum_split_ratio(fine_end).finer == 0);
+  // Cut at 5 %, the first split whose d85 is known is at 0.05/0.85; its D15 lies at 0.2 of the mass exactly.
+  const Grading cut = Grading::from_curve(Points{{fine_end.diameter_at(0.05), 0.05}, {1e-3, 0.2}, {2e-3, 1}});
+  const double f = 0.05 / 0.85;
+  CHECK(maximum_split_ratio(cut).ratio == Approx(cut.diameter_above(0.15 + 0.85 * f) / cut.smallest()));
+  CHECK(maximum_split_ratio(cut).finer == Approx(f));
+  CHECK_THROWS_WITH(maximum_split_ratio(fine_end, 5), Catch::Contains("not per cent"));
+}
+
 TEST_CASE("Kenney and Lau: the minimum over F of H/F") {
   // Straight over two decades: H = ln 4/ln 100 = 0.301, F up to 0.20 (C_u = 10): 1.505
   const CriterionResult wide = kenney_lau(straight(1e-4, 2));
@@ -104,6 +144,32 @@ TEST_CASE("Chapuis: the least secant slope per log cycle") {
   CHECK(chapuis_kenney_lau(straight(1e-4, 2)).value == Approx(0.5));
   CHECK(chapuis_kenney_lau(straight(1e-4, 3.1)).verdict == Verdict::unstable);
   CHECK(chapuis_kezdi(straight(1e-4, 0.3)).verdict == Verdict::stable);  // all within a factor of four
+}
+
+TEST_CASE("slopes are judged from the smallest grain on") {
+  // Next to nothing from 0.1 to 0.5 mm, all the rest from there to 2 mm: H at 0.1 mm is 0.01 ln 4/ln 5, and
+  // rises to 1 at 0.5 mm.
+  const Grading flat = Grading::from_curve(Points{{1e-4, 0}, {5e-4, 0.01}, {2e-3, 1}});
+  const double least = 0.01 * std::log(4) / std::log(5);
+  CHECK(li_fannin(flat).value == Approx(least / 0.15));
+  CHECK(li_fannin(flat).verdict == Verdict::unstable);
+  CHECK(chapuis_kezdi(flat).value == Approx(least / std::log10(4)));
+  CHECK(chapuis_kezdi(flat).verdict == Verdict::unstable);
+  CHECK_THAT(chapuis_kezdi(flat).note, Catch::Contains("from 0.1 mm to"));
+  // Kenney and Lau's H/F has no end at F = 0, and is judged where there are finer grains.
+  CHECK(std::isfinite(minimum_shape_ratio(flat).ratio));
+  CHECK(minimum_shape_ratio(flat).finer > 0);
+  const auto points = shape_curve(flat, 0.2);
+  CHECK(points.front().finer == 0);
+  CHECK(points.front().interval == Approx(least));
+}
+
+TEST_CASE("Li and Fannin: the less strict line is judged at its corner as well") {
+  // From 4^0 to 4^1 mm, F = 0.1 + 0.12 x and H = 0.12 + 0.06 x: H/F falls from 1.2 as far as the corner of
+  // the line at F = 0.15, where H is 0.145; from there on H over 0.15 rises, to 1.13 at F = 0.2.
+  const Grading curve =
+      Grading::from_curve(Points{{0.25e-3, 0}, {1e-3, 0.10}, {4e-3, 0.22}, {16e-3, 0.40}, {64e-3, 1}});
+  CHECK_THAT(li_fannin(curve).note, Catch::Contains("H/min(0.15, F): unstable"));
 }
 
 TEST_CASE("Burenkova: between both lines, and what the misprint would say") {

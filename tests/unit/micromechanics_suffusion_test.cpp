@@ -48,6 +48,23 @@ TEST_CASE("gradients at which shares of the fines have left", "[suffusion]") {
   CHECK(*suffusion_onset(states, shares).eroded[1] == Approx(1.6));
 }
 
+TEST_CASE("water that flows down tells the same gradients as water that flows up", "[suffusion]") {
+  const std::vector<double> shares{0.002, 0.01, 0.05};
+  std::vector<SuffusionState> down = washed_out();
+  for (SuffusionState& state : down) {
+    state.gradient = -state.gradient;
+    for (double& gradient : state.layer_gradient) gradient = -gradient;
+  }
+  const SuffusionOnset onset = suffusion_onset(down, shares), up = suffusion_onset(washed_out(), shares);
+  CHECK(*onset.inside == *up.inside);
+  CHECK(*onset.eroded[0] == Approx(0.9));
+  CHECK(*onset.eroded[1] == *up.eroded[1]);
+  CHECK_FALSE(onset.eroded[2]);
+  // Of one that turns the larger magnitude counts.
+  down[3].gradient = 1.5;
+  CHECK(*suffusion_onset(down, shares).inside == Approx(1.5));
+}
+
 TEST_CASE("a layer that clogs is steeper than the mean", "[suffusion]") {
   std::vector<SuffusionState> states = washed_out();
   CHECK(suffusion_onset(states, {}).steepest_layer == Approx(1));

@@ -74,6 +74,15 @@ def check_split_by_share(program):
         check(rows[0] == rows[1] and rows[0]["alpha_pair_halves"] != "", f"--split {share} is not --split {diameter}: {rows}")
         check(abs(float(rows[0]["fines_solid_share"]) - fines) < 1e-3, f"--split {share}: {rows[0]['fines_solid_share']} are fines, not {fines}")
     program.must_refuse(["contacts", "c.dump", "g.dump", "--split", "20%"], "--split", "one")
+    # Beside all sizes: metres were meant to be millimetres, or the grains have none that small.
+    words = ["contacts", "layers.dump", "layers_contacts.dump", "--split"]
+    program.must_refuse([*words, "0.95"], "--split = 0.95 m", "the largest grain, 0.001 m")
+    out = program.must_run(*words, "0.95e-6", "--output", "layers.csv", "--overwrite")
+    check("warning: no grain is smaller than --split = 9.5e-07 m (the grains have 0.0009 to 0.001 m)" in out, out)
+    check(next(csv.DictReader(open(program.folder / "layers.csv")))["fines"] == "0", "fines of nothing")
+    check("warning" not in program.must_run(*words, "0.95e-3"), "a warning for nothing")
+    # Of a region whose own grains are all alike those around it count.
+    check("warning" not in program.must_run(*words, "0.95e-3", "--region", 0, 3e-3, 0, 3e-3, 2e-3, 3e-3), "a warning for a part")
     for wrong in ("0%", "100%", "-5%", "%", "x%"):
         program.must_refuse(["contacts", "layers.dump", "layers_contacts.dump", "--split", wrong], "--split", wrong)
 
@@ -92,6 +101,63 @@ def check_shear(program):
     program.must_refuse(["shear", "cycle.csv"], "cycle.csv", "grow from sample to sample")
     (program.folder / "unsheared.csv").write_text("time_s,mean_stress_pa\n0,1\n1,1\n2,1\n")
     program.must_refuse(["shear", "unsheared.csv"], "axial_strain")
+
+
+def check_undefined(program):
+    """What is not defined is an empty cell in a table and a dash on the screen, never nan or inf."""
+    # A sample without any stress or contact, and one that has lost both at the end.
+    for name, lost_from in (("empty.csv", 0), ("lost.csv", 50)):
+        rows = "".join(f"{k * 1e-3},{200e3 * (k < lost_from)},{2e3 * k * (k < lost_from)},{4.0 * (k < lost_from)},{1.0 * (k < lost_from)}\n" for k in range(61))
+        (program.folder / name).write_text("axial_strain,mean_stress_pa,deviatoric_stress_pa,coordination_number,alpha_pair_halves\n" + rows)
+        out = program.must_run("shear", name, "--output", "curves.csv", "--overwrite")
+        text = (program.folder / "curves.csv").read_text()
+        check(not any(word in (out + text).lower().replace(name, "") for word in ("nan", "inf")), f"{name}: {out}\n{text}")
+        found = {row["quantity"]: row["value"] for row in csv.DictReader(text.splitlines())}
+        check(found["stress_ratio_at_end"] == "" and found["peak_deviatoric_stress_pa"] != "", f"{name}: {found}")
+        if lost_from:
+            check(abs(float(found["peak_stress_ratio"]) - 0.49) < 0.01 and float(found["coordination_drop"]) == 1, f"{name}: {found}")
+        else:
+            check(found["peak_stress_ratio"] == found["axial_strain_at_peak"] == found["coordination_drop"] == "", f"{name}: {found}")
+
+
+def check_suffusion(program):
+    """Onsets by the gradient's magnitude, upwards and downwards; a layer without fines; and series that go back in time."""
+    head = "time_s,applied_gradient,eroded_fines_share,fines_share_layer_1,fines_share_layer_2,hydraulic_gradient_layer_1,hydraulic_gradient_layer_2\n"
+    for sign, note in ((1, ""), (-1, "downwards")):
+        # A layer that loses a tenth of its fines from the sixth sample on, and one that never had any.
+        rows = "".join(f"{k},{sign * 0.1 * k},{0.002 * max(0, k - 7)},0,{0.2 - 0.004 * max(0, k - 5)},{sign * 0.1 * k},{sign * 0.1 * k}\n" for k in range(20))
+        (program.folder / "washed.csv").write_text(head + rows)
+        out = program.must_run("suffusion", "washed.csv", "--output", "onsets.csv", "--overwrite")
+        found = {row["quantity"]: row for row in csv.DictReader(open(program.folder / "onsets.csv"))}
+        inside, few = found["gradient, fines begin to move inside"], found["gradient, 0.2 % of the fines have left"]
+        check(abs(float(inside["value"]) - 0.8) < 1e-9 and abs(float(few["value"]) - 0.8) < 1e-9, f"{sign}: {found}")
+        check(inside["note"] == note and ("downwards" in out) == bool(note) and "largest gradient 1.900" in out, out)
+    lines = (program.folder / "washed.csv").read_text().splitlines()
+    (program.folder / "again.csv").write_text("\n".join([*lines[:12], *lines[8:]]) + "\n")
+    program.must_refuse(["suffusion", "again.csv"], "again.csv, line 13, time_s = 7 after 10", "not go back")
+    (program.folder / "once_more.csv").write_text("\n".join([*lines[:12], *lines[11:]]) + "\n")
+    program.must_run("suffusion", "once_more.csv")  # a sample that a restart has written again
+
+
+def check_outputs(program):
+    """No file is written twice or over one that is read, however it is spelled; --overwrite changes nothing of that."""
+    folder = program.folder
+    (folder / "soil.csv").write_text("sieve_mm,percent_passing\n0.1,0\n0.2,20\n1,25\n2,100\n")
+    (folder / "link.csv").symlink_to("soil.csv")
+    (folder / "sub").mkdir()
+    before = {path: path.read_bytes() for path in folder.glob("*.*") if path.is_file()}
+    here = folder.name
+    for first, second in (("a.csv", "a.csv"), ("a.csv", "./a.csv"), ("sub/../a.csv", f"../{here}/a.csv"), (folder / "a.csv", "a.csv"), ("a.csv", "a.csv.part")):
+        program.must_refuse(["contacts", "c.dump", "g.dump", "--output", first, "--json", second], f"--json = {second}", "that of --output")
+        program.must_refuse(["grading", "soil.csv", "--output", first, "--shape", second, "--overwrite"], f"--shape = {second}", "that of --output")
+    for words, name in ((["grading", "soil.csv", "--curve"], "./soil.csv"), (["grading", "link.csv", "--curve"], "soil.csv"), (["contacts", "c.dump", "g.dump", "--output"], "sub/../g.dump"),
+                        (["contacts", "?.dump", "--json"], "c.dump"), (["shear", "shear.csv", "cycle.csv", "--output"], "cycle.csv"), (["suffusion", "washed.csv", "--output"], "washed.csv"),
+                        (["rose", "c.dump", "g.dump", "--output", "r.csv", "--fits"], "c.dump"), (["hydraulic", "soil.csv", "--porosity", "0.3", "--output"], "soil.csv"),
+                        (["constriction", "soil.csv", "--output"], "soil.csv"), (["verdict", "soil.csv", "--output"], "soil.csv"), (["reproduce", "table-4-1", "a", "--output"], "a/sample.toml")):
+        program.must_refuse([*words, name, "--overwrite"], name, "not be a file that is read")
+    program.must_refuse(["sample", "soil.csv", "--grains", "100", "--output", "soil", "--overwrite"], "soil.csv", "not be a file that is read")
+    check(before == {path: path.read_bytes() for path in folder.glob("*.*") if path.is_file()}, "a file that is read has changed")
+    program.must_run("grading", "soil.csv", "--output", "a.csv", "--shape", "sub/a.csv")
 
 
 def check_rose(program, has_figures):
@@ -184,6 +250,11 @@ def check_mistakes(program):
                         (["contacts", "c.dump", "g.dump", "--split", "gap"], ("--split", "gap")), (["contacts", "c.dump", "g.dump", "--friction", "-1"], ("--friction",)),
                         (["contacts", "c.dump", "g.dump", "--strong", "most"], ("--strong", "most")), (["contacts", "c.dump", "g.dump", "--axis", "w"], ("--axis", "w")),
                         (["contacts", "c.dump", "g.dump", "--column", "radius"], ("--column", "OURS=THEIRS")),
+                        (["contacts", "c.dump", "g.dump", "--column", "raduis=radius"], ("--column = raduis", "did you mean radius?")),
+                        (["contacts", "c.dump", "g.dump", "--column", "friction_limt=c_1[7]", "spring_force=c_1[8]"], ("--column = friction_limt", "did you mean friction_limit?")),
+                        (["contacts", "c.dump", "g.dump", "--column", "delta=c_11[7]"], ("--column delta of the dump of contacts = c_11[7]", "did you mean c_1[7]?")),
+                        (["contacts", "c.dump", "g.dump", "--column", "diameter=diamter"], ("--column diameter of the dump of grains = diamter", "id, x, y, z, radius")),
+                        (["contacts", "c.dump", "g.dump", "--column", "radius=x", "radius=radius"], ("--column = radius twice",)),
                         (["contacts", "c.dump", "g.dump", "--output", "no/folder/o.csv"], ("no/folder/o.csv",)),
                         (["contacts", "c.dump", "g.dump", "--volume", "1e-12"], ("volume",)), (["rose", "c.dump", "g.dump", "--plane", "zx"], ("--plane", "zx")),
                         (["rose", "c.dump", "g.dump", "--bins", "7"], ("--bins", "7")), (["rose", "c.dump", "g.dump", "--order", "3"], ("--order", "3")),
@@ -258,6 +329,7 @@ def check_numbers(program):
     check(asked > 150, f"only {asked} numbers were tried")
     for words, told in ((["contacts", "c.dump", "g.dump", "--volume", "0"], ("--volume", "> 0")),
                         (["contacts", "c.dump", "g.dump", "--sliding-tolerance", "-1"], ("--sliding-tolerance", ">= 0")),
+                        (["sample", "soil.csv", "--grains", "10.5"], ("--grains = 10.5", "whole number")), (["sample", "soil.csv", "--coarse", "99.5"], ("--coarse = 99.5", "whole number")),
                         (["sample", "soil.csv", "--seed", "-1"], ("--seed", ">= 0")), (["sample", "soil.csv", "--scale", "1e300"], ("--scale", "grains of")),
                         (["sample", "soil.csv", "--grains", "100", "--box-edge", "1e6"], ("--box-edge", "millionth")), (["sample", "soil.csv", "--output", ""], ("--output", "names")),
                         (["constriction", "soil.csv", "--coarser-than", "1e-4"], ("--coarser-than", "--packing")),
@@ -289,8 +361,11 @@ def main():
         check_hostile(program)
         check_split_by_share(program)
         check_shear(program)
+        check_undefined(program)
+        check_suffusion(program)
         check_numbers(program)
         check_reproduce(program)
+        check_outputs(program)
         check_mean_of_samples(program)
     print("suffuse-analyse: results, mistakes and samples as they should be" + ("" if has_figures else "; no matplotlib, no figures"))
 

@@ -115,7 +115,8 @@ struct ShapePoint {
 };
 
 /// The curve at all of its corners (between them H and F are straight over log d, so that every extreme of H,
-/// and of H/F, is at one of them), rising in size, for F up to `finer_limit`, whose own point is the last.
+/// and of H/F, is at one of them), rising in size, from the smallest grain, with F = 0 where the curve is
+/// known whole, up to F = `finer_limit`, whose own point is the last.
 std::vector<ShapePoint> shape_curve(const Grading& grading, double finer_limit);
 
 /// Fine and coarse fraction of classes cut at a share of the mass, each normalised. A class that the cut

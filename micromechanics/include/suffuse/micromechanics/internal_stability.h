@@ -89,11 +89,14 @@ struct ShapeMinimum {
 };
 ShapeMinimum minimum_shape_ratio(const Grading& grading, const StabilityLimits& limits = {});
 
-/// max over all splits from F = `from_finer` on of D15 of the coarse over d85 of the fine fraction, exact for
-/// the curve.
+/// Supremum over all splits from F = `from_finer` on of D15 of the coarse over d85 of the fine fraction,
+/// exact for the curve. Its ends are candidates as well: F towards 1, where D15 of what is left as the coarse
+/// part tends to the largest grain, and the smallest F of which both sizes are known, `from_finer` or, on a
+/// curve that ends above 0, its end's share/0.85. A ratio of 0 where no split has both sizes (more than 85 %
+/// unknown). Throws UserError unless 0 <= from_finer < 1.
 struct SplitMaximum {
   double ratio = 0;
-  double finer = 0;  ///< split at this F; at a gap the value is the one just beside it
+  double finer = 0;  ///< split at this F; at a gap, and at F = 1, the value is the one just beside it
 };
 SplitMaximum maximum_split_ratio(const Grading& grading, double from_finer = 0);
 
@@ -103,13 +106,14 @@ CriterionResult lubochkov(const Grading& grading, const StabilityLimits& limits 
 CriterionResult kezdi(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult sherard(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult kenney_lau(const Grading& grading, const StabilityLimits& limits = {});
-/// Kezdi's criterion as the least secant slope of the curve per log cycle.
+/// Kezdi's criterion as the least secant slope of the curve per log cycle, from the smallest grain on.
 CriterionResult chapuis_kezdi(const Grading& grading, const StabilityLimits& limits = {});
 /// Kenney and Lau's as the least of that slope over F/log10 4.
 CriterionResult chapuis_kenney_lau(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult burenkova(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult honjo(const Grading& grading, const StabilityLimits& limits = {});
 CriterionResult liu(const Grading& grading, const StabilityLimits& limits = {});
+/// From F = 0, the smallest grain, to Kenney and Lau's limit.
 CriterionResult li_fannin(const Grading& grading, const StabilityLimits& limits = {});
 /// Wan and Fell's logistic form of Burenkova's factors, for silt-sand-gravel.
 CriterionResult wan_fell_probability(const Grading& grading, const StabilityLimits& limits = {});

@@ -36,7 +36,7 @@ struct ShearSettings {
 struct StressReductionStages {
   double start = 0, after_first = 0, at_peak = 0, end = 0;  ///< α at the limits of the stages
   double strain_first = 0;                                  ///< axial strain at which stage 1 ends
-  double ratio_first = 0;                                   ///< q/p' there
+  std::optional<double> ratio_first;                        ///< q/p' there
 };
 
 struct FabricState {
@@ -44,15 +44,19 @@ struct FabricState {
   double axial_strain = 0;  ///< from here on
 };
 
-/// What chapter 5 reads off its curves. Means are moving ones over ShearSettings::window.
+/// What chapter 5 reads off its curves. Means are moving ones over ShearSettings::window. Where p' is not
+/// positive (a sample that grains no longer hold together) q/p' is not defined, and such samples are no peak;
+/// without any other there is none, and no stages.
 struct ShearResponse {
-  std::optional<double> initial_void_ratio;                      ///< e_0
-  double peak_deviator = 0, strain_at_peak = 0, peak_ratio = 0;  ///< q_peak, Pa; q_peak/p'
-  double end_ratio = 0, end_strain = 0;                          ///< q/p' at the end
-  std::optional<double> end_volumetric;                          ///< ε_v at the end
-  std::optional<double> strain_of_constant_volume;               ///< none: not reached
+  std::optional<double> initial_void_ratio;          ///< e_0
+  double peak_deviator = 0;                          ///< q_peak, Pa
+  std::optional<double> strain_at_peak, peak_ratio;  ///< of q/p'
+  double end_strain = 0;
+  std::optional<double> end_ratio;                  ///< q/p' at the end
+  std::optional<double> end_volumetric;             ///< ε_v at the end
+  std::optional<double> strain_of_constant_volume;  ///< none: not reached
   std::optional<double> coordination_start, coordination_least, coordination_end;
-  std::optional<double> coordination_drop;                       ///< 1 − Z_least/Z_start
+  std::optional<double> coordination_drop;  ///< 1 − Z_least/Z_start; none if Z_start is 0
   std::optional<double> coarse_start, coarse_least, coarse_end;  ///< Z_cc
   std::optional<StressReductionStages> stages;
   std::vector<FabricState> fabrics;       ///< in the order of the strain

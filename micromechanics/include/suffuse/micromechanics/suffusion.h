@@ -8,16 +8,17 @@ namespace suffuse::micromechanics {
 
 /// What a sample under seepage was like at one moment.
 struct SuffusionState {
-  double gradient = 0;                 ///< applied
+  double gradient = 0;                 ///< applied; negative where it drives the water down
   double eroded_share = 0;             ///< of all fines, that have left the sample
   std::vector<double> fines_share;     ///< of the solids, by layer
   std::vector<double> layer_gradient;  ///< of the water, by layer
 };
 
-/// At which applied gradients a sample began to change: the largest that it had seen by then, which of a ramp
-/// is the gradient of that moment.
+/// At which applied gradients a sample began to change, by their magnitudes, up or down: the largest that it
+/// had seen by then, which of a ramp is the gradient of that moment.
 struct SuffusionOnset {
-  /// Where the fines content of a layer has first changed by `kInsideChange` of what it was at first.
+  /// Where the fines content of a layer that had some has first changed by `kInsideChange` of what it was at
+  /// first.
   std::optional<double> inside;
   /// Where so much of all fines had left, for each of the shares that were asked for.
   std::vector<std::optional<double>> eroded;

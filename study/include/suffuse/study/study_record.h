@@ -23,6 +23,7 @@ struct RunRecord {
   /// Of lines that differ in their numbers alone the first.
   std::vector<std::string> notes;
   std::string settings;  ///< fingerprint of script, variables and ranks: other settings are another run
+  std::string program;   ///< that was run; empty in records of before
   double wall = 0, core = 0, other_cores = 0;
 };
 
