@@ -29,9 +29,8 @@ struct FaceContext {
 /// one is the other's: the straight link makes up for it, so that a face lets in its area times its velocity,
 /// whatever its sides are.
 ///
-/// Links of walls and velocities: A link of cell x in direction i leads out of the box.
-/// Its two places are (x + c_i, slot i), where an odd step puts what leaves and looks for what enters, and
-/// (x, slot opposite(i)), where an even step does.
+/// Such a link of cell x in direction i leads out of the box. Its two places are (x + c_i, slot i), where an
+/// odd step puts what leaves and looks for what enters, and (x, slot opposite(i)), where an even step does.
 template <class T>
 class FacePatches {
  public:
