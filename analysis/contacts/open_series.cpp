@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,6 +7,7 @@
 #include "contacts/dump_series.h"
 #include "contacts/hdf5_series.h"
 #include "contacts/snapshot.h"
+#include "files/file_pattern.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/paths.h"
 
@@ -47,16 +47,10 @@ bool natural_less(const std::string& a, const std::string& b) {
 std::vector<std::string> expanded(const std::vector<std::string>& patterns, const std::string& who) {
   std::vector<std::string> paths;
   for (const std::string& pattern : patterns) {
-    if (pattern.find_first_of("*?[") == std::string::npos || is_there(pattern)) {
-      paths.push_back(pattern);
-      continue;
-    }
-    glob_t found{};
-    if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
-      for (std::size_t k = 0; k < found.gl_pathc; ++k) paths.emplace_back(found.gl_pathv[k]);
-    const bool none = found.gl_pathc == 0;
-    globfree(&found);
-    if (none) throw_user_error({who, "files", pattern, "match a file", "check the folder and the pattern"});
+    const std::vector<std::string> found = files_of_pattern(pattern);
+    if (found.empty())
+      throw_user_error({who, "files", pattern, "match a file", "check the folder and the pattern"});
+    paths.insert(paths.end(), found.begin(), found.end());
   }
   return paths;
 }

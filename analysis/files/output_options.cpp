@@ -1,13 +1,13 @@
 #include "files/output_options.h"
 
 #include <fmt/format.h>
-#include <glob.h>
 
 #include <filesystem>
 #include <map>
 #include <set>
 #include <system_error>
 
+#include "files/file_pattern.h"
 #include "suffuse/common/error.h"
 #include "suffuse/common/paths.h"
 #include "suffuse/common/safe_file.h"
@@ -43,22 +43,11 @@ void refuse_one_file_twice(const std::string& who, const std::vector<Output>& ou
                           "one would replace the other"});
 }
 
-/// The files that a name or a pattern stands for.
-std::vector<std::string> files_of(const std::string& input) {
-  std::vector<std::string> files{input};
-  if (input.find_first_of("*?[") == std::string::npos) return files;
-  glob_t found{};
-  if (glob(input.c_str(), 0, nullptr, &found) == 0)
-    for (std::size_t k = 0; k < found.gl_pathc; ++k) files.emplace_back(found.gl_pathv[k]);
-  globfree(&found);
-  return files;
-}
-
 void refuse_inputs(const std::string& who, const std::vector<Output>& outputs,
                    const std::vector<std::string>& inputs) {
   std::set<std::string> read;
   for (const std::string& input : inputs)
-    for (const std::string& file : files_of(input))
+    for (const std::string& file : files_of_pattern(input))
       if (is_file(file)) read.insert(one_name_of(file));
   for (const Output& output : outputs)
     for (const std::string& name : names_while_written(output.file))

@@ -244,9 +244,8 @@ std::optional<std::string> LbmRun::drag_note() const {
     return std::nullopt;
   return fmt::format(
       "lbm run: note: grains moved at up to {:.2g} viscosities a cell ({:.3g} m/s); a bed that carries its "
-      "water along so fast has too much drag (2 to 5 % at 5, 6 to 16 % at 10); `lbm "
-      "collision "
-      "trt_comoving` keeps within 2 % (docs/what_goes_wrong.md)",
+      "water along so fast has too much drag (2 to 5 % at 5, 6 to 16 % at 10); `lbm collision trt_comoving` "
+      "keeps within 2 % (docs/what_goes_wrong.md)",
       speed, fastest_grain_);
 }
 

@@ -69,8 +69,7 @@ std::string describe(const suffuse::PairLaw& law, const suffuse::CriticalGrain& 
 
 void CommandDemTimestep::command(int narg, char** arg) {
   suffuse::ArgumentReader reader("dem_timestep", narg, arg, 0);
-  suffuse::require_si_units(lmp, "dem_timestep");
-  suffuse::require_three_dimensions(lmp, "dem_timestep");
+  suffuse::require_si_and_three_dimensions(lmp, "dem_timestep");
   double share = 0;
   const std::string mode = reader.word("rayleigh SHARE or check");
   if (mode == "rayleigh")

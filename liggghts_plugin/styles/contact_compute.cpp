@@ -8,8 +8,7 @@ using namespace LAMMPS_NS;
 
 ContactCompute::ContactCompute(LAMMPS* lmp_in, int& iarg, int narg, char** arg)
     : Compute(lmp_in, iarg, narg, arg), sample_(lmp_in, who()) {
-  suffuse::require_si_units(lmp, who());
-  suffuse::require_three_dimensions(lmp, who());
+  suffuse::require_si_and_three_dimensions(lmp, who());
   timeflag = 1;
   update_on_run_end_ = true;  // so that scripts can use the values after a run, in print or if
   FixContactSampler::of(lmp).add_user(this);

@@ -65,8 +65,7 @@ struct FixDensityScaling::Gravity {
 FixDensityScaling::FixDensityScaling(LAMMPS* lmp_in, int narg, char** arg)
     : Fix(lmp_in, narg, arg), gravity_(std::make_unique<Gravity>()) {
   suffuse::ArgumentReader reader(kDensityScaling, narg, arg, 3);
-  suffuse::require_si_units(lmp, kDensityScaling);
-  suffuse::require_three_dimensions(lmp, kDensityScaling);
+  suffuse::require_si_and_three_dimensions(lmp, kDensityScaling);
   const std::string mode = reader.word("size D or rayleigh T");
   by_size_ = mode == "size";
   if (by_size_) {

@@ -42,8 +42,7 @@ bool foresees(const GrainRecord& record) {
 FixHydrodynamicForce::FixHydrodynamicForce(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader("fix hydrodynamic/force", narg, arg, 3);
   if (!reader.done()) reader.unknown(reader.word("end of line"), "nothing more");
-  suffuse::require_si_units(lmp, "fix hydrodynamic/force");
-  suffuse::require_three_dimensions(lmp, "fix hydrodynamic/force");
+  suffuse::require_si_and_three_dimensions(lmp, "fix hydrodynamic/force");
   if (atom->radius_flag == 0 || atom->torque_flag == 0)
     throw_user_error({"fix hydrodynamic/force", "atom_style", atom->atom_style, "be spheres",
                       "write `atom_style granular`"});

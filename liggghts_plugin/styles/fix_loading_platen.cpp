@@ -60,8 +60,7 @@ std::vector<double> read_bounds(suffuse::ArgumentReader& reader) {
 
 FixLoadingPlaten::FixLoadingPlaten(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(kPlaten, narg, arg, 3);
-  suffuse::require_si_units(lmp, kPlaten);
-  suffuse::require_three_dimensions(lmp, kPlaten);
+  suffuse::require_si_and_three_dimensions(lmp, kPlaten);
   if (atom->radius_flag == 0 || atom->rmass == nullptr)
     throw_user_error({kPlaten, "atom_style", atom->atom_style, "be spheres", "write `atom_style granular`"});
   drive_.damping_ratio = 0.5;

@@ -75,8 +75,7 @@ double smallest_radius(LAMMPS* lmp) {
 
 FixLubrication::FixLubrication(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(kLubrication, narg, arg, 3);
-  suffuse::require_si_units(lmp, kLubrication);
-  suffuse::require_three_dimensions(lmp, kLubrication);
+  suffuse::require_si_and_three_dimensions(lmp, kLubrication);
   while (!reader.done()) {
     if (reader.keyword("viscosity"))
       film_.viscosity = reader.positive("viscosity");

@@ -48,7 +48,7 @@ std::string who() {
 
 FixStressServo::FixStressServo(LAMMPS* lmp_in, int narg, char** arg) : Fix(lmp_in, narg, arg) {
   suffuse::ArgumentReader reader(who(), narg, arg, 3);
-  suffuse::require_si_units(lmp, reader.who());
+  suffuse::require_si_and_three_dimensions(lmp, reader.who());
   suffuse::require_periodic_box(lmp, reader.who());
   if (igroup != 0)
     throw_user_error(

@@ -183,14 +183,7 @@ void init_keeping_restart_records(LAMMPS* lmp) {
   lmp->output->init();
 }
 
-void require_three_dimensions(LAMMPS* lmp, std::string_view who) {
-  if (lmp->domain->dimension == 3) return;
-  throw_user_error({std::string(who), "dimension", std::to_string(lmp->domain->dimension), "be 3",
-                    "drop the line `dimension`: grains are spheres in space"});
-}
-
 void require_periodic_box(LAMMPS* lmp, std::string_view who) {
-  require_three_dimensions(lmp, who);
   if (lmp->domain->box_exist == 0)
     throw_user_error(
         {std::string(who), "simulation box", "none", "exist", "write `create_box` or `read_restart` before"});
@@ -201,10 +194,13 @@ void require_periodic_box(LAMMPS* lmp, std::string_view who) {
     throw_user_error({std::string(who), "box", "triclinic", "be orthogonal", "use a `region ... block`"});
 }
 
-void require_si_units(LAMMPS* lmp, std::string_view who) {
-  if (std::strcmp(lmp->update->unit_style, "si") == 0) return;
-  throw_user_error(
-      {std::string(who), "units", lmp->update->unit_style, "be si", "write `units si` and SI values"});
+void require_si_and_three_dimensions(LAMMPS* lmp, std::string_view who) {
+  if (std::strcmp(lmp->update->unit_style, "si") != 0)
+    throw_user_error(
+        {std::string(who), "units", lmp->update->unit_style, "be si", "write `units si` and SI values"});
+  if (lmp->domain->dimension != 3)
+    throw_user_error({std::string(who), "dimension", std::to_string(lmp->domain->dimension), "be 3",
+                      "drop the line `dimension`: grains are spheres in space"});
 }
 
 void require_single_spheres(LAMMPS* lmp, std::string_view who) {

@@ -82,14 +82,12 @@ LAMMPS_NS::PairGran& require_granular_pair_style(LAMMPS_NS::LAMMPS* lmp, std::st
 /// holds for them: LIGGGHTS forgets what no fix has claimed by then.
 void init_keeping_restart_records(LAMMPS_NS::LAMMPS* lmp);
 
-/// Throws in two dimensions, where LIGGGHTS's stresses are forces a length and its grains may be discs.
-void require_three_dimensions(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
-
-/// Throws unless the box is periodic on all faces, orthogonal and of three dimensions.
+/// Throws unless the box is periodic on all faces and orthogonal.
 void require_periodic_box(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
-/// Throws unless the script has `units si`: our formulas and defaults are SI's.
-void require_si_units(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
+/// Throws unless the script has `units si`, as our formulas and defaults are SI's, and three dimensions: in
+/// two LIGGGHTS's stresses are forces a length and its grains may be discs.
+void require_si_and_three_dimensions(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
 
 /// Throws where a fix of the script makes clumps of spheres: what `who` computes is that of single spheres.
 void require_single_spheres(LAMMPS_NS::LAMMPS* lmp, std::string_view who);
