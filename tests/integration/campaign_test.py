@@ -113,8 +113,7 @@ def check_mistakes(campaign):
     screen, code = campaign.run("--config", "samples=nowhere.csv")
     expect(code == 1 and "samples = nowhere.csv, must be a CSV file" in screen, screen)
     for row, message in (("soils/mine.csv,dense,300,1,no,,", "sample = soils/mine.csv, must be a name of the gradings, or a CSV file in"),
-                         ("A20,dense,300,1,no,a b,", "A20_dense_1_a b is to be a folder"),
-                         ("A20,dense,300,1,yes,,-var friction 0.5", "-var friction, must not stand in a row that is sheared")):
+                         ("A20,dense,300,1,no,a b,", "A20_dense_1_a b is to be a folder")):
         (campaign.folder / "wrong.csv").write_text(f"sample,state,grains,seed,shear,variant,options\n{row}\n")
         screen, code = campaign.run("--config", "samples=wrong.csv")
         expect(code == 1 and "row 1" in screen and message in screen, screen)
@@ -125,9 +124,9 @@ def check_own_sample(campaign, options):
     soils = campaign.folder / "my soils"
     soils.mkdir()
     (soils / "A1.5.csv").write_text("diameter_mm,percent_finer\n0.2,0\n0.25,20\n0.3,45\n0.35,70\n0.45,100\n")
-    (soils / "list.csv").write_text("sample,state,grains,seed,shear,variant,options\nA1.5.csv,loose,300,1,no,smooth,-var friction 0.1\n")
+    (soils / "list.csv").write_text("sample,state,grains,seed,shear,variant,options\nA1.5.csv,loose,300,1,yes,smooth,-var friction 0.1\n")
     folder = campaign.folder / "samples" / "A1.5_loose_1_smooth"
-    screen, code = campaign.run(f"samples/{folder.name}/contacts.csv", "--configfile", str(options.campaigns / "tiny.yaml"),
+    screen, code = campaign.run(f"samples/{folder.name}/contacts.csv", f"samples/{folder.name}/shear/classes.csv", "--configfile", str(options.campaigns / "tiny.yaml"),
                                 "--config", f"samples={soils / 'list.csv'}")
     expect(code == 0, screen[-3000:])
     described = dict(line.split(" = ") for line in (folder / "sample.toml").read_text().splitlines())
@@ -139,6 +138,10 @@ def check_own_sample(campaign, options):
         expect(done.returncode == 0, done.stderr)
     expect(filecmp.cmp(folder / "contacts.csv", soils / "0.1.csv", shallow=False), "contacts with another friction or split than the sample's")
     expect(not filecmp.cmp(folder / "contacts.csv", soils / "0.3.csv", shallow=False), "friction changes nothing in this sample")
+    with open(folder / "shear" / "classes.csv", newline="") as file:
+        sheared = list(csv.DictReader(line for line in file if not line.startswith("#")))[-1]
+    mobilised, sliding = float(sheared["mean_mobilised_friction"]), float(sheared["sliding_share"])
+    expect(0.02 < mobilised < 0.1 and sliding > 0.02, f"sheared with another friction than the row's: T/N {mobilised}, sliding {sliding} of friction 0.1")
 
 
 def check_other_settings(campaign, tiny):
