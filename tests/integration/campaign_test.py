@@ -152,6 +152,14 @@ def check_other_settings(campaign, tiny):
         expect(code == 0 and done == again, f"{settings} does {done} again, not {again}:\n{screen}")
 
 
+def check_longer_list(campaign, tiny, shorter):
+    """A sample that was added to the list of a finished folder is made, and with it the table, with times of files as the only trigger too."""
+    longer = campaign.folder / "longer.csv"
+    longer.write_text(shorter.read_text() + "A30,dense,300,7,no\n")
+    screen, code = campaign.run(*tiny, "--nolock", "--dry-run", "--rerun-triggers", "mtime", "--config", f"samples={longer}")
+    expect(code == 0 and screen.count("rule equilibrate:") == 1 and "rule table:" in screen, screen[-3000:])
+
+
 def check_shear_again(campaign, tiny):
     """To another strain: no snapshot of the one before is in its table."""
     screen, code = campaign.run("samples/A20_dense_32452867/shear/classes.csv", *tiny, "--nolock", "--config", "axial_strain=0.005", "snapshots=0 0.005 1e9")
@@ -188,6 +196,7 @@ def main():
         expect(strains[0] < 0.05 * strains[-1], f"the part before the kill is gone: begins at a strain of {strains[0]}")
         screen, code = campaign.run(*tiny, "--nolock")
         expect(code == 0 and "Nothing to be done" in screen, "a finished campaign is done again")
+        check_longer_list(campaign, tiny, options.campaigns / "tiny.csv")
         check_other_settings(campaign, tiny)
         check_shear_again(campaign, tiny)
         check_own_sample(campaign, options)
