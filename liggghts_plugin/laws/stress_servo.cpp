@@ -43,7 +43,9 @@ void drive_isotropic(const Settings& s, const Measurement& m, State& state) {
   const double p = mean_stress(m.stress);
   const double limit = rate_limit(s, m.inertial_size, p);
   // Three axes at the same rate: the volume strains three times as fast. Nothing strains a sample at rest, so
-  // there is no standing error for integral action to remove, only an overshoot for it to cause.
+  // there is no standing error for integral action to remove. Grains without friction that still rearrange
+  // hold p' some per cent below the target meanwhile: that waits for them, and integral action would not
+  // (docs/decisions/servo-approach.md).
   const double rate = (s.target - p) / (3 * stiffness_of(s, m) * m.relaxation_time);
   state.rate.setConstant(std::clamp(rate, -limit, limit));
   state.bias.setZero();
