@@ -23,7 +23,7 @@ def points_of(path):
     """By sample: quantity to (measured, thesis); of Table 4.1."""
     samples = {}
     with open(path, newline="") as file:
-        for row in csv.DictReader(file):
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
             if row["source"] == "table-4-1":
                 # Table 4.1's alpha of soils with 25 % of fines or more is that of the finest.
                 name = "alpha_pair_halves" if row["quantity"] == "alpha_finest_fraction" else row["quantity"]

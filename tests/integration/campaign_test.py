@@ -97,6 +97,14 @@ def check_results(folder):
         expect((folder / name).stat().st_size > 5000, f"no {name}")
 
 
+def check_published(campaign, options):
+    """The figure of Table 4.1 from the published values, whose file begins with the command that made them."""
+    figure = campaign.folder / "published.png"
+    done = subprocess.run(["/usr/bin/python3", str(options.campaigns.parents[1] / "analysis/figures/figure_4_4.py"),
+                           str(options.campaigns.parents[1] / "docs/results/data/chapter_4_samples.csv"), "--output", str(figure)], capture_output=True, text=True)
+    expect(done.returncode == 0 and figure.stat().st_size > 5000, done.stderr)
+
+
 def check_plan(campaign):
     """All of chapters 4 and 5: 27 rows of the one table, ten of the other, five of which are in both."""
     screen, code = campaign.run("--dry-run", "--quiet")
@@ -181,6 +189,7 @@ def main():
         tiny = ("--configfile", str(options.campaigns / "tiny.yaml"))
         check_decisions(options.campaigns)
         check_plan(campaign)
+        check_published(campaign, options)
         check_mistakes(campaign)
         killed_on_the_way(campaign, tiny)
         killed_while_shearing(campaign, tiny)
