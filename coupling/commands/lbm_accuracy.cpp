@@ -267,6 +267,13 @@ void set_accuracy(LAMMPS_NS::LAMMPS* lmp, const AccuracyRequest& request, Ligggh
     wish.resolved = !wish.averaged;
     if (wish.averaged) wish.drag = settings.averaged->drag;
   }
+  if (!settings.averaged && !settings.solids.errors_are_known())
+    throw_user_error({"lbm accuracy", "solid operator",
+                      fmt::format("{}, coefficient {}", lbm::name_of(settings.solids.cells.solid_operator),
+                                  settings.solids.automatic_coefficient ? "auto" : "given"),
+                      "be force with weighting viscosity_independent and coefficient auto: no errors were "
+                      "measured with others",
+                      "drop the line `lbm solid` or `lbm preset`, or set `lbm lattice` by hand"});
   AccuracyChoice first = choose_for_accuracy(wish, scene);
   settings.region = request.region;
   const auto averaged = priced_averaged(lmp, wish, scene, settings, port);

@@ -15,10 +15,7 @@ namespace suffuse::coupling {
 namespace {
 
 bool is_calibrated(const CoupledSettings& settings) {
-  const SolidSettings& solids = settings.solids;
-  return !settings.averaged && solids.automatic_coefficient &&
-         solids.cells.solid_operator == lbm::SolidOperator::force &&
-         solids.cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  return !settings.averaged && settings.solids.errors_are_known();
 }
 
 /// Error of the permeability where the coefficient is calibrated; empty otherwise.
@@ -113,7 +110,11 @@ std::string errors_table(const CoupledSettings& settings, const DrivenScene& dri
     row("carried water", errors.motion,
         fmt::format("grains at {:.2g} viscosities a cell, {}", scene.grain_speed * spacing / scene.viscosity,
                     name_of(collision)));
-  row("together", errors.together(), "of the permeability, or a steady speed");
+  if (!is_calibrated(settings))
+    text += fmt::format("{:<22}{:>12}  {}\n", "resolution", "not known",
+                        "measured with operator force weighting viscosity_independent coefficient auto");
+  row(is_calibrated(settings) ? "together" : "the others together", errors.together(),
+      "of the permeability, or a steady speed");
   if (errors.coupling > 0)
     row("coupling", errors.coupling,
         fmt::format("while speeds change: half a step over the {:.2g} s in which the smallest grain follows",

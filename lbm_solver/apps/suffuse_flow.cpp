@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "suffuse/common/collective_text.h"
 #include "suffuse/common/command_line_help.h"
@@ -51,13 +52,21 @@ class FlowRun final : private RunSteps {
       throw_user_error({"suffuse-flow", "time",
                         fmt::format("{:g} s, which are {:.3g} steps", flow_.time, steps),
                         fmt::format("be at most {:g} steps", Units::kMostSteps), "SI units"});
+    require_followed_force();
     add_spheres();
-    if (!flow_.restart_read.empty()) load_state(fluid_, flow_.restart_read, &units_);
+    if (!flow_.restart_read.empty()) {
+      const std::vector<bool> solids = local_solids();
+      load_state(fluid_, flow_.restart_read, &units_);
+      if (!flow_.spheres.empty()) require_same_solids(solids);
+    }
     fluid_.set_force(force_at(flow_, units_, units_.time_to_si(static_cast<double>(fluid_.steps()))));
     for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
       fluid_cells_ += fluid_.is_solid({x, y, z}) ? 0 : 1;
     });
     MPI_Allreduce(MPI_IN_PLACE, &fluid_cells_, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    if (fluid_cells_ == 0)
+      throw_user_error({"suffuse-flow [solids]", "spheres", "all cells are solid", "leave cells to the liquid",
+                        "the box is from 0 to size; SI units"});
   }
 
   /// Has the flow become steady, where it was to?
@@ -92,6 +101,31 @@ class FlowRun final : private RunSteps {
     settings.faces = faces_at(flow, units, 0);
     check(faces_at(flow, units, 1e300), cells_of(flow, units));  // the values at the end of all ramps as well
     return settings;
+  }
+
+  /// Two steps a period at least: a faster swing would be seen at a few of its phases only.
+  void require_followed_force() const {
+    const double steps = flow_.frequency > 0 ? units_.time_to_lattice(1 / flow_.frequency) : 2;
+    if (steps < 2)
+      throw_user_error({"suffuse-flow [force]", "frequency",
+                        fmt::format("{:g} Hz, a period of {:.3g} steps", flow_.frequency, steps),
+                        "have two steps a period at least, better twenty", "use a smaller timestep"});
+  }
+
+  std::vector<bool> local_solids() const {
+    std::vector<bool> solids;
+    for_each_cell(fluid_.decomposition().local_box(),
+                  [&](int x, int y, int z) { solids.push_back(fluid_.is_solid({x, y, z})); });
+    return solids;
+  }
+
+  /// A state keeps its own solids, and a liquid that flowed around others cannot go on around these.
+  void require_same_solids(const std::vector<bool>& of_case) const {
+    int differ = of_case == local_solids() ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &differ, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    if (differ != 0)
+      throw_user_error({"suffuse-flow [solids]", "spheres", "not those of " + flow_.restart_read,
+                        "be the state's", "leave [solids] out to take the state's as they are"});
   }
 
   /// A sphere that holds no cell's centre would change nothing.
@@ -175,7 +209,8 @@ class FlowRun final : private RunSteps {
     if (!flow_.output) return;
     output_.emplace(*flow_.output, units_);
     for (const std::string& file : fields)
-      if (!flow_.output->append) keep(file, kOutput);
+      // There is nothing to go on from without a state: the earlier file is another run's.
+      if (!flow_.output->append || flow_.restart_read.empty()) keep(file, kOutput);
   }
 
   void open_monitor() {

@@ -131,7 +131,7 @@ std::vector<std::string> Units::warnings() const {
   if (grid_reynolds() > 10)
     lines.push_back(
         fmt::format("grid Reynolds number {:.0f}: the flow changes too fast from cell to cell; lower "
-                    "spacing, or take an eddy viscosity (`lbm effect turbulence on`)",
+                    "spacing, or take an eddy viscosity (`lbm effect turbulence on`; `smagorinsky` of suffuse-flow)",
                     grid_reynolds()));
   if (density_difference() > 0.03)
     lines.push_back(

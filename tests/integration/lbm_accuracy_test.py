@@ -105,6 +105,8 @@ def check_refusals(program):
             (bed + "lbm accuracy 5% max_speed 1\n", ["max_velocity, region"]),
             (bed + "lbm method averaged\nlbm accuracy 5% max_velocity 1e-2\n", ["accuracy = 5 %", "the averaged flow"]),
             (wet_box(grains=0) + FLUID + "lbm accuracy 5% max_velocity 1e-2\n", ["grains = none"]),
+            (bed + "lbm preset thesis\nlbm accuracy 5% max_velocity 1e-2\n", ["solid operator = sc1", "lbm preset"]),
+            (bed + "lbm solid coefficient 1\nlbm accuracy 5% max_velocity 1e-2\n", ["solid operator = force, coefficient given"]),
         ], folder)
     expect(not amiss, "\n".join(amiss))
 

@@ -75,6 +75,17 @@ def main(program, mpirun, folder):
         bad = run("other", 1, ranks=1, text=other.replace(*change))
         assert bad.returncode == 1 and message in bad.stderr and "swung_state.h5" in bad.stderr, bad
 
+    # A state brings its solids: others are refused, the same and none go on. Snapshots are kept without a state to go on from.
+    around = CASE.replace("[run]", "[solids]\nspheres = [[8e-4, 8e-4, {x}, 3e-4]]\n[run]").replace("every = 1\n", "every = 0.25\nappend = true\n")
+    assert run("round", 0.5, text=around.format(x="4e-4", name="round", time=0.5, restart='write = "round_state.h5"')).returncode == 0
+    go_on = dict(name="round", time=0.25, restart='read = "round_state.h5"')
+    other = run("round", 0.25, text=around.format(x="3e-4", **go_on))
+    assert other.returncode == 1 and "spheres = not those of round_state.h5" in other.stderr, other
+    for text in (CASE.format(**go_on), around.format(x="4e-4", **go_on)):
+        assert run("round", 0.25, text=text).returncode == 0
+    again = run("round", 0.25, text=around.format(x="4e-4", name="round", time=0.25, restart=""))
+    assert again.returncode == 0 and "round.h5 of an earlier run is now round.h5.before" in again.stdout, again
+
     good = CASE.format(name="bad", time=1, restart="")
     for change, message in [
         (('xlo = "noslip"', 'xlo = "nosli"'), "xlo = nosli, must be one of"),
@@ -104,6 +115,8 @@ def main(program, mpirun, folder):
         (("[run]", "[force]\nacceleration = [0, 0, nan]\n[run]"), "must be three finite numbers"),
         (("[run]", "[solids]\nspheres = [[0, 0, 0, inf]]\n[run]"), "finite, with a radius > 0"),
         (("[run]", "[solids]\nspheres = [[1, 0, 0, 1e-4]]\n[run]"), "must hold the centre of a cell"),
+        (("[run]", "[solids]\nspheres = [[8e-4, 8e-4, 4e-4, 1]]\n[run]"), "all cells are solid"),
+        (("[run]", "[force]\nfrequency = 1e3\n[run]"), "frequency = 1000 Hz, a period of"),
         (("size = [0.0016,", "size = [inf,"), "must be three finite numbers"),
         (("viscosity = 1e-6", "viscosity = -1e-6"), "viscosity = -1e-06, must be > 0"),
         (("viscosity = 1e-6", "viscosity = 1e-6\ndensity = nan"), "density = nan, must be finite"),

@@ -26,6 +26,12 @@ struct SolidSettings {
   int subcells = 5;              ///< per edge, for FractionMethod::subcells
   double remap_distance = 1e-3;  ///< cells: a grain that moved less is not mapped again
   double remap_velocity = 1e-7;  ///< cells a step: nor one whose velocity changed by less
+
+  /// Do the expected errors hold? They were measured with the defaults of these three.
+  bool errors_are_known() const {
+    return automatic_coefficient && cells.solid_operator == lbm::SolidOperator::force &&
+           cells.weighting == lbm::SolidWeighting::viscosity_independent;
+  }
 };
 
 enum class Switch { off, on, automatic };
