@@ -278,6 +278,7 @@ void LbmCommand::run_scene(const ArgumentReader& reader, const RunLine& asked) {
   for (const std::string& line : effects_.begin(scene(), walls_.planes()))
     tell(lmp_, "lbm run: " + line + "\n");
   LbmRun(scene(), request_, output_, effects_).run(request, continued_at_);
+  effects_.withdraw(lmp_);  // LIGGGHTS's own `run` is without water, and grains may become smaller by then
 }
 
 }  // namespace suffuse::coupling

@@ -79,6 +79,14 @@ def check_films(program, folder):
     expect("lubrication off as in the saved state" in again, f"films after the restart:\n{again[:3000]}")
 
 
+def check_films_between_runs(program, folder):
+    """Films are water's: LIGGGHTS's own `run` has none, nor does it mind that a grain has become smaller than films were made for."""
+    lines = wet_box(grains=0) + PAIR + WATER + f"lbm effect lubrication on\nlbm run until {20 * STEP!r}\n"
+    program.must_run(lines + f"set atom 1 diameter 5e-4\nrun 10\nlbm run until {40 * STEP!r}\n", folder)
+    code, screen = program.run(lines + "unfix suffuse_lubrication\n", folder)
+    expect(code == 1 and "fix" in screen, f"films are there between two runs:\n{screen[-800:]}")
+
+
 def check_asked(program, folder):
     """Words have the last say; the averaged flow and other collisions have none of it."""
     lines = "lbm effect comoving off turbulence off lubrication off\nlbm run 4e-3\n"
@@ -110,6 +118,7 @@ def main():
         told = check_changes(program, folder)
         if program.ranks == 1:
             check_films(program, folder)
+            check_films_between_runs(program, folder)
             check_asked(program, folder)
             check_grains_let_go(program, folder)
     print(f"{program.ranks} ranks: effects follow the scene, and a restart follows them: {told}")
