@@ -65,8 +65,8 @@ class FlowRun final : private RunSteps {
     });
     MPI_Allreduce(MPI_IN_PLACE, &fluid_cells_, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     if (fluid_cells_ == 0)
-      throw_user_error({"suffuse-flow [solids]", "spheres", "all cells are solid", "leave cells to the liquid",
-                        "the box is from 0 to size; SI units"});
+      throw_user_error({"suffuse-flow [solids]", "spheres", "all cells are solid",
+                        "leave cells to the liquid", "the box is from 0 to size; SI units"});
   }
 
   /// Has the flow become steady, where it was to?
@@ -114,8 +114,9 @@ class FlowRun final : private RunSteps {
 
   std::vector<bool> local_solids() const {
     std::vector<bool> solids;
-    for_each_cell(fluid_.decomposition().local_box(),
-                  [&](int x, int y, int z) { solids.push_back(fluid_.is_solid({x, y, z})); });
+    for_each_cell(fluid_.decomposition().local_box(), [&](int x, int y, int z) {
+      solids.push_back(fluid_.is_solid({x, y, z}));
+    });
     return solids;
   }
 

@@ -129,10 +129,10 @@ std::vector<std::string> Units::warnings() const {
                     "brings it below one per cent",
                     mach(), 100 * mach() * mach(), time_step_ * 0.1 / mach()));
   if (grid_reynolds() > 10)
-    lines.push_back(
-        fmt::format("grid Reynolds number {:.0f}: the flow changes too fast from cell to cell; lower "
-                    "spacing, or take an eddy viscosity (`lbm effect turbulence on`; `smagorinsky` of suffuse-flow)",
-                    grid_reynolds()));
+    lines.push_back(fmt::format(
+        "grid Reynolds number {:.0f}: the flow changes too fast from cell to cell; lower "
+        "spacing, or take an eddy viscosity (`lbm effect turbulence on`; `smagorinsky` of suffuse-flow)",
+        grid_reynolds()));
   if (density_difference() > 0.03)
     lines.push_back(
         fmt::format("density difference {:.1f} %: take `incompressible`, or a timestep of {:.2g} s",

@@ -159,6 +159,21 @@ void FixLubrication::post_create() {
   suffuse::act_before_constraints(lmp, this);
 }
 
+/// A pair between two fixes would have its film twice, and more damping than its mass stands.
+void FixLubrication::require_films_once() const {
+  for (int k = 0; k < modify->nfix; ++k) {
+    const auto* other = dynamic_cast<const FixLubrication*>(modify->fix[k]);
+    if (other == nullptr || other == this) continue;
+    int shared = 0;
+    for (int i = 0; i < atom->nlocal; ++i)
+      if ((atom->mask[i] & groupbit) != 0 && (atom->mask[i] & other->groupbit) != 0) shared = 1;
+    MPI_Allreduce(MPI_IN_PLACE, &shared, 1, MPI_INT, MPI_MAX, world);
+    if (shared != 0)
+      throw_user_error({kLubrication, "group", fmt::format("of {} and of {}", other->id, id),
+                        "have no grain in common", "write one line for both, or `unfix` the other"});
+  }
+}
+
 void FixLubrication::init() {
   suffuse::require_single_spheres(lmp, kLubrication);
   pair_ = &suffuse::require_granular_pair_style(lmp, kLubrication);
@@ -173,6 +188,7 @@ void FixLubrication::init() {
       throw_user_error({kLubrication, "walls", fmt::format("{} {:g}", kPlaneWords[wall.axis], wall.at),
                         "not lie across a periodic axis: films would form on one side alone",
                         "write `boundary` with f along this axis, or leave the wall out"});
+  require_films_once();
   const double smallest = smallest_radius(lmp);
   if (smallest > 0 && neighbor->contactDistanceFactor < required_distance_factor(smallest) * (1 - 1e-9))
     throw_user_error({kLubrication, "smallest radius", fmt::format("{:g}", smallest),

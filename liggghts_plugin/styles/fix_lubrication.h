@@ -59,6 +59,7 @@ class FixLubrication : public Fix {
   };
 
   double required_distance_factor(double smallest_radius) const;
+  void require_films_once() const;
   void count_films();
   void add(int i, const suffuse::Vec3& force, const suffuse::Vec3& torque);
   void evaluate();

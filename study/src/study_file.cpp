@@ -212,9 +212,8 @@ std::string script_of(const Section& section) {
 
 /// No name twice: they are columns of one table.
 void require_one_of_each(const Section& root, const Study& study) {
-  std::set<std::string> swept,
-      names{"status", "reason",       "wall_s", "core_s",           "other_cores", "error",
-            "front",  "is_reference", "notes",  "extrapolated_from"};
+  std::set<std::string> swept, names{"status", "reason", "wall_s",       "core_s", "other_cores",
+                                     "error",  "front",  "is_reference", "notes",  "extrapolated_from"};
   for (const SweepBlock& block : study.sweeps)
     for (const auto& [name, values] : block) swept.insert(name);
   const auto take = [&](const std::string& name) {
@@ -223,7 +222,8 @@ void require_one_of_each(const Section& root, const Study& study) {
   for (const std::string& name : swept) take(name);
   for (const auto& [name, value] : study.fixed) take(name);
   for (const StudyQuantity& quantity : study.quantities)
-    for (const char* column : {"", "_reference", "_error", "_extrapolated", "_error_bar", "_order", "_convergence"})
+    for (const char* column :
+         {"", "_reference", "_error", "_extrapolated", "_error_bar", "_order", "_convergence"})
       take(quantity.name + column);
   for (const auto& [name, value] : study.base)
     if (!swept.contains(name)) root.complain("[base] " + name, value, "be swept, or stand in [fixed]");

@@ -272,6 +272,7 @@ CASES = [
     (f"fix film all lubrication {GOOD} walls", ["walls", "be given"]),
     (f"fix film all lubrication {GOOD} walls top", ["walls = top", "zplane Z"]),
     (f"fix film all lubrication {GOOD} walls zplane 0 yplane 0\nrun 0", ["walls = yplane 0", "periodic axis"]),
+    (f"fix film all lubrication {GOOD}\nfix more all lubrication {GOOD}\nrun 0", ["group = of", "no grain in common"]),
     (f"fix film all lubrication {GOOD} walls zplane high", ["zplane = high", "be a number"]),
     (f"fix film all lubrication {GOOD}", ["newton = on", "be off"]),
     (f"neighbor 1e-4 multi\nfix film all lubrication {GOOD}\nrun 1", ["neighbor style = multi", "bin"]),
