@@ -91,7 +91,8 @@ std::string errors_table(const CoupledSettings& settings, const DrivenScene& dri
                                                ? lbm::CollisionOperator::trt_comoving
                                                : settings.fluid.collision.collision_operator;
   AccuracyErrors errors = expected_errors(scene, spacing, step, collision);
-  if (!is_calibrated(settings)) errors.resolution = 0;
+  const bool calibrated = is_calibrated(settings);
+  if (!calibrated) errors.resolution = 0;
   std::string text = fmt::format("{:<22}{:>12}\n", "error expected by", "about");
   const auto row = [&](const char* name, double error, const std::string& why) {
     text += fmt::format("{:<22}{:>10.2g} %  {}\n", name, 100 * error, why);
@@ -110,10 +111,10 @@ std::string errors_table(const CoupledSettings& settings, const DrivenScene& dri
     row("carried water", errors.motion,
         fmt::format("grains at {:.2g} viscosities a cell, {}", scene.grain_speed * spacing / scene.viscosity,
                     name_of(collision)));
-  if (!is_calibrated(settings))
+  if (!calibrated)
     text += fmt::format("{:<22}{:>12}  {}\n", "resolution", "not known",
                         "measured with operator force weighting viscosity_independent coefficient auto");
-  row(is_calibrated(settings) ? "together" : "the others together", errors.together(),
+  row(calibrated ? "together" : "the others together", errors.together(),
       "of the permeability, or a steady speed");
   if (errors.coupling > 0)
     row("coupling", errors.coupling,
