@@ -96,7 +96,7 @@ void LbmCommand::clear() {
   request_ = {};
   output_ = {};
   state_to_read_.clear();
-  continued_at_.reset();
+  took_up_state_ = false;
   warned_about_held_grains_ = false;
   walls_ = {};
 }
@@ -170,7 +170,7 @@ void LbmCommand::read_state() {
   load_pore_coefficients(state_to_read_, *simulation_);
   load_method(state_to_read_, *simulation_);
   output_.set_references(load_references(state_to_read_, communicator_of(lmp_)));
-  continued_at_ = simulation_->time_si();
+  took_up_state_ = true;
 }
 
 /// Their velocity moves the fluid although they stay where they are.
@@ -277,7 +277,7 @@ void LbmCommand::run_scene(const ArgumentReader& reader, const RunLine& asked) {
   request.walls = walls_.lines();
   for (const std::string& line : effects_.begin(scene(), walls_.planes()))
     tell(lmp_, "lbm run: " + line + "\n");
-  LbmRun(scene(), request_, output_, effects_).run(request, continued_at_);
+  LbmRun(scene(), request_, output_, effects_).run(request, took_up_state_);
   effects_.withdraw(lmp_);  // LIGGGHTS's own `run` is without water, and grains may become smaller by then
 }
 

@@ -53,7 +53,7 @@ class LbmCommand {
   WaterWalls walls_;
   RunOutput output_;
   std::string state_to_read_;
-  std::optional<double> continued_at_;  ///< s: time of the state that was read
+  bool took_up_state_ = false;  ///< of `lbm restart read`
   bool warned_about_held_grains_ = false;
 };
 

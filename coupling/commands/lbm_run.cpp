@@ -146,7 +146,7 @@ lbm::MeanMotion LbmRun::mean_motion() {
 }
 
 /// Everything up to the first step: LIGGGHTS's setup, the manifest, the grains in their cells, open files.
-void LbmRun::begin(const RunRequest& request, std::optional<double> continue_after) {
+void LbmRun::begin(const RunRequest& request, bool took_up_state) {
   const lbm::Units& units = scene_.simulation.units();
   const long steps = units.steps_in(request.time);
   if (const double dem_steps = units.time_to_lattice(request.time) * scene_.simulation.substeps();
@@ -172,7 +172,7 @@ void LbmRun::begin(const RunRequest& request, std::optional<double> continue_aft
   const MappedScene mapped = scene_.simulation.map();
   refuse_overlaps(grains);
   scene_.simulation.times() = {};
-  output_.prepare(settings_, scene_, mapped, continue_after);
+  output_.prepare(settings_, scene_, mapped, took_up_state);
   follow_variables_ = values_change(settings_);
   first_ = scene_.simulation.fluid().steps();
   last_ = first_ + steps;
@@ -267,12 +267,12 @@ std::optional<std::string> LbmRun::weight_note() const {
       grains->norm(), water.norm());
 }
 
-void LbmRun::run(const RunRequest& request, std::optional<double> continue_after) {
+void LbmRun::run(const RunRequest& request, bool took_up_state) {
   // A second SIGINT acts as usual: whoever waits at a terminal can end the program at once. SIGUSR1 is what
   // mpirun passes on without killing its programs a second later.
   using enum SignalWatch::Second;
   const SignalWatch signals({{SIGTERM, noted}, {SIGUSR1, noted}, {SIGINT, as_usual}});
-  begin(request, continue_after);
+  begin(request, took_up_state);
   lbm::RunPlan plan{first_, last_};
   plan.until_steady = request.steady;
   plan.steady_every = std::max(10L, scene_.simulation.units().steps_in(request.window));

@@ -37,10 +37,11 @@ class LbmRun final : private lbm::RunSteps {
 
   /// Collective. A UserError if the flow becomes unstable; Interrupted once a SIGTERM or SIGINT has ended it:
   /// the fluid step is finished then, and the state saved where restart files were asked for.
-  void run(const RunRequest& request, std::optional<double> continue_after);
+  /// `took_up_state`: files go on with what an earlier run left in them.
+  void run(const RunRequest& request, bool took_up_state);
 
  private:
-  void begin(const RunRequest& request, std::optional<double> continue_after);
+  void begin(const RunRequest& request, bool took_up_state);
   void advance(long step, bool cut_short) override;
   void check_due(long step) override;
   lbm::MeanMotion mean_motion() override;

@@ -31,7 +31,7 @@ double Sample::specific_weight() const {
 }
 
 Monitor::Monitor(const MonitorRequest& request, const Scene& scene, const MappedScene& mapped,
-                 std::optional<double> continue_after, const MonitorReferences& references)
+                 std::optional<SeriesContinuation> continues, const MonitorReferences& references)
     : request_(request), every_(scene.simulation.units().steps_in(request.every)) {
   Sample now(scene, mapped, request.axis);
   for (const QuantityRequest& quantity : request.quantities)
@@ -40,7 +40,7 @@ Monitor::Monitor(const MonitorRequest& request, const Scene& scene, const Mapped
     if (const auto saved = references.find(key(quantity)); quantity.reference && saved != references.end())
       *quantity.reference = saved->second;
   refuse_repeated_columns();
-  open(scene.lmp, continue_after);
+  open(scene, continues);
 }
 
 void Monitor::refuse_repeated_columns() const {
@@ -61,14 +61,16 @@ void Monitor::add_references(MonitorReferences& references) const {
     if (quantity.reference && !quantity.reference->empty()) references[key(quantity)] = *quantity.reference;
 }
 
-void Monitor::open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after) {
+void Monitor::open(const Scene& scene, std::optional<SeriesContinuation> continues) {
   std::string header = "time_s";
   for (const Quantity& quantity : quantities_)
     for (const std::string& column : quantity.columns) header += "," + column;
   const std::string who = "lbm monitor " + request_.id;
-  file_.emplace(request_.file, header, who, continue_after, communicator_of(lmp));
+  file_.emplace(request_.file, header, who, continues, communicator_of(scene.lmp));
+  if (file_->last_time() >= scene.simulation.time_si() * (1 - 1e-9))
+    last_step_ = scene.simulation.fluid().steps();  // its row is there
   if (!file_->earlier().empty())
-    tell(lmp,
+    tell(scene.lmp,
          fmt::format("{}: note: {} of an earlier run is now {}\n", who, request_.file, file_->earlier()));
 }
 

@@ -68,10 +68,10 @@ Quantity make_quantity(const QuantityRequest& request, const MonitorRequest& mon
 /// `lbm monitor`: a CSV file with a header of names and units, one row a sample, flushed as written.
 class Monitor {
  public:
-  /// A new file, or with `continue_after` (s) the one that is there: its rows up to that time stay, and
-  /// samples refer to what `references` has for these columns. Collective.
+  /// A new file, or with `continues` the one that is there; samples refer to what `references` has for these
+  /// columns. Collective.
   Monitor(const MonitorRequest& request, const Scene& scene, const MappedScene& mapped,
-          std::optional<double> continue_after, const MonitorReferences& references);
+          std::optional<SeriesContinuation> continues, const MonitorReferences& references);
 
   /// Adds what samples refer to now.
   void add_references(MonitorReferences& references) const;
@@ -85,7 +85,7 @@ class Monitor {
   void write(const Scene& scene, const MappedScene& mapped, const std::optional<PlaneSums>& planes = {});
 
  private:
-  void open(LAMMPS_NS::LAMMPS* lmp, std::optional<double> continue_after);
+  void open(const Scene& scene, std::optional<SeriesContinuation> continues);
   void refuse_repeated_columns() const;
   std::string key(const Quantity& quantity) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "../liggghts/grains_file.h"
@@ -24,13 +25,14 @@ namespace {
 
 /// Before the run spends any time. What an earlier run left under the names is kept under others, unless it
 /// goes on. Collective.
-void open_files_of(const OutputRequest& request, bool goes_on, LAMMPS_NS::LAMMPS* lmp) {
+void open_files_of(const OutputRequest& request, const std::function<bool(const std::string&)>& goes_on,
+                   LAMMPS_NS::LAMMPS* lmp) {
   const std::string who = "lbm output " + request.id;
   std::string notes;
   on_first_rank(who, communicator_of(lmp), [&] {
     for (const std::string& file : files_of(request)) {
       require_writable(file, who);
-      if (goes_on) continue;
+      if (goes_on(file)) continue;
       if (const auto earlier = keep_earlier_hdf5(file, who))
         notes += fmt::format("{}: note: {} of an earlier run is now {}\n", who, file, *earlier);
     }
@@ -98,61 +100,84 @@ void require_grains_of(LAMMPS_NS::LAMMPS* lmp, const std::string& file) {
          "read_restart the grains of the same state: FILE.grains with FILE, FILE.1/grains with FILE.1"});
 }
 
-void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
-                        std::optional<double> continue_after) {
-  LAMMPS_NS::LAMMPS* const lmp = scene.lmp;
-  CoupledSimulation& simulation = scene.simulation;
-  if (continue_after) continue_after = simulation.time_si();  // what earlier runs since then wrote stays too
-  std::erase_if(monitors_, [&](const auto& open) {
-    return std::none_of(settings.monitors.begin(), settings.monitors.end(),
-                        [&](const MonitorRequest& m) { return m == open->request(); });
-  });
-  for (const MonitorRequest& request : settings.monitors)
-    if (std::none_of(monitors_.begin(), monitors_.end(),
-                     [&](const auto& open) { return open->request().id == request.id; })) {
-      monitors_.push_back(std::make_unique<Monitor>(request, scene, mapped, continue_after, references_));
-      // Another monitor of this name, later, begins with its own samples.
-      std::erase_if(references_,
-                    [&](const auto& entry) { return entry.first.starts_with(request.id + ": "); });
-    }
+bool RunOutput::was_written(const std::string& file) const {
+  return written_.contains(one_name_of(file));
+}
 
+void RunOutput::prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
+                        bool took_up_state) {
+  prepare_monitors(settings, scene, mapped, took_up_state);
+  prepare_fields(settings, scene, took_up_state);
+  checkpoint_ = settings.checkpoint;
+  if (checkpoint_) require_free_for_sets(checkpoint_->file, "lbm restart write", communicator_of(scene.lmp));
+  checkpoint_every_ = checkpoint_ ? scene.simulation.units().steps_in(checkpoint_->every) : 0;
+}
+
+void RunOutput::prepare_monitors(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
+                                 bool took_up_state) {
+  std::erase_if(monitors_, [&](const auto& open) {
+    const bool stays = std::any_of(settings.monitors.begin(), settings.monitors.end(),
+                                   [&](const MonitorRequest& m) { return m == open->request(); });
+    if (!stays) open->add_references(closed_);
+    return !stays;
+  });
+  for (const MonitorRequest& request : settings.monitors) {
+    if (std::any_of(monitors_.begin(), monitors_.end(),
+                    [&](const auto& open) { return open->request().id == request.id; }))
+      continue;
+    const bool same_run = was_written(request.file);
+    std::optional<SeriesContinuation> continues;
+    if (same_run || took_up_state) continues = {scene.simulation.time_si(), same_run};
+    monitors_.push_back(
+        std::make_unique<Monitor>(request, scene, mapped, continues, same_run ? closed_ : references_));
+    written_.insert(one_name_of(request.file));
+    // Another monitor of this name, later, begins with its own samples.
+    std::erase_if(references_, [&](const auto& entry) { return entry.first.starts_with(request.id + ": "); });
+  }
+}
+
+void RunOutput::prepare_fields(const LbmRequest& settings, const Scene& scene, bool took_up_state) {
   std::erase_if(fields_, [&](const auto& open) {
     return std::none_of(settings.outputs.begin(), settings.outputs.end(),
                         [&](const OutputRequest& o) { return o == open->request; });
   });
-  for (const OutputRequest& request : settings.outputs) {
-    if (std::any_of(fields_.begin(), fields_.end(),
-                    [&](const auto& open) { return open->request.id == request.id; }))
-      continue;
-    const bool continues = continue_after && exists_for_all(request.file, communicator_of(lmp));
-    open_files_of(request, continue_after.has_value(), lmp);
-    lbm::FieldOutputSettings fields;
-    fields.path = request.file;
-    fields.fields = request.fields;
-    fields.origin = simulation.origin();
-    fields.append = continue_after.has_value();
-    fields.solid_fraction = [&simulation](const lbm::Index3& cell) {
-      return simulation.solid_fraction(cell);
+  for (const OutputRequest& request : settings.outputs)
+    if (std::none_of(fields_.begin(), fields_.end(),
+                     [&](const auto& open) { return open->request.id == request.id; }))
+      fields_.push_back(open_fields(request, scene, took_up_state));
+}
+
+std::unique_ptr<RunOutput::Fields> RunOutput::open_fields(const OutputRequest& request, const Scene& scene,
+                                                          bool took_up_state) {
+  CoupledSimulation& simulation = scene.simulation;
+  const auto goes_on = [&](const std::string& file) { return took_up_state || was_written(file); };
+  if (simulation.method() != nullptr &&
+      std::count(request.fields.begin(), request.fields.end(), lbm::Field::density) > 0)
+    throw_user_error({"lbm output " + request.id, "density", "asked for",
+                      "not be a field of the averaged flow, whose density is constant", "take pressure"});
+  const bool appends = goes_on(request.file);
+  const bool has_first =
+      appends && !was_written(request.file) && exists_for_all(request.file, communicator_of(scene.lmp));
+  open_files_of(request, goes_on, scene.lmp);
+  lbm::FieldOutputSettings fields;
+  fields.path = request.file;
+  fields.fields = request.fields;
+  fields.origin = simulation.origin();
+  fields.append = appends;
+  fields.solid_fraction = [&simulation](const lbm::Index3& cell) { return simulation.solid_fraction(cell); };
+  if (simulation.method() != nullptr)
+    fields.for_each_point = [&simulation](const lbm::Fluid::PointVisitor& visit) {
+      simulation.for_each_point(visit);
     };
-    if (simulation.method() != nullptr &&
-        std::count(fields.fields.begin(), fields.fields.end(), lbm::Field::density) > 0)
-      throw_user_error({"lbm output " + request.id, "density", "asked for",
-                        "not be a field of the averaged flow, whose density is constant", "take pressure"});
-    if (simulation.method() != nullptr)
-      fields.for_each_point = [&simulation](const lbm::Fluid::PointVisitor& visit) {
-        simulation.for_each_point(visit);
-      };
-    fields_.push_back(std::make_unique<Fields>(Fields{request,
-                                                      simulation.units().steps_in(request.every),
-                                                      -1,
-                                                      continues,
-                                                      lbm::FieldOutput(fields, simulation.units()),
-                                                      {}}));
-    if (request.grains) fields_.back()->grains.emplace(grains_file(request.file), continue_after.has_value());
-  }
-  checkpoint_ = settings.checkpoint;
-  if (checkpoint_) require_free_for_sets(checkpoint_->file, "lbm restart write", communicator_of(lmp));
-  checkpoint_every_ = checkpoint_ ? simulation.units().steps_in(checkpoint_->every) : 0;
+  auto made = std::make_unique<Fields>(Fields{request,
+                                              simulation.units().steps_in(request.every),
+                                              -1,
+                                              has_first,
+                                              lbm::FieldOutput(fields, simulation.units()),
+                                              {}});
+  if (request.grains) made->grains.emplace(grains_file(request.file), goes_on(grains_file(request.file)));
+  for (const std::string& file : files_of(request)) written_.insert(one_name_of(file));
+  return made;
 }
 
 bool RunOutput::wants_values(long step) const {
@@ -180,7 +205,7 @@ void RunOutput::write(const Scene& scene) {
   for (const auto& monitor : monitors_)
     if (step % monitor->every() == 0) monitor->write(scene, mapped, sample_);
   for (const auto& fields : fields_) {
-    const bool first = fields->last_step < 0 && !fields->continues;
+    const bool first = fields->last_step < 0 && !fields->has_first;
     if ((step % fields->every != 0 && !first) || fields->last_step == step) continue;
     fields->last_step = step;
     fields->fluid.write(simulation.fluid());

@@ -22,9 +22,9 @@ namespace suffuse::coupling {
 class RunOutput {
  public:
   /// Opens what the script has asked for since the last call and drops what it has taken back. With
-  /// `continue_after` (s) new files go on with what an earlier run left in them up to then. Collective.
-  void prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
-               std::optional<double> continue_after);
+  /// `took_up_state` new files go on with what an earlier run left in them up to now; what has been written
+  /// since this object was made goes on always. Collective.
+  void prepare(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped, bool took_up_state);
 
   /// Is anything due once the fluid has made so many steps?
   bool due(long step) const;
@@ -61,17 +61,24 @@ class RunOutput {
   struct Fields {
     OutputRequest request;
     long every = 1, last_step = -1;
-    bool continues;  ///< what an earlier run left in the file: its first state is there
+    bool has_first;  ///< in what an earlier run left in the file
     lbm::FieldOutput fluid;
     std::optional<GrainOutput> grains;
   };
 
+  void prepare_monitors(const LbmRequest& settings, const Scene& scene, const MappedScene& mapped,
+                        bool took_up_state);
+  void prepare_fields(const LbmRequest& settings, const Scene& scene, bool took_up_state);
+  std::unique_ptr<Fields> open_fields(const OutputRequest& request, const Scene& scene, bool took_up_state);
+  bool was_written(const std::string& file) const;
   bool saves(long step) const;
   static void write_grains(Fields& fields, const Scene& scene);
 
   std::vector<std::unique_ptr<Monitor>> monitors_;
   MonitorReferences references_, effects_;
+  MonitorReferences closed_;  ///< of monitors whose files another line may go on with
   std::vector<std::unique_ptr<Fields>> fields_;
+  std::set<std::string> written_;  ///< files of monitors and outputs that were opened, closed ones too
   std::optional<CheckpointRequest> checkpoint_;
   long checkpoint_every_ = 0;
   bool started_ = false;

@@ -220,7 +220,9 @@ class FlowRun final : private RunSteps {
       for (const char axis : {'x', 'y', 'z'}) header += "," + fmt::format(fmt::runtime(name), axis);
     std::optional<double> continued_at;
     if (!flow_.restart_read.empty()) continued_at = units_.time_to_si(static_cast<double>(fluid_.steps()));
-    monitor_.emplace(flow_.monitor_file, header + ",mass_kg", kMonitor, continued_at, MPI_COMM_WORLD);
+    std::optional<SeriesContinuation> continues;
+    if (continued_at) continues = {*continued_at};
+    monitor_.emplace(flow_.monitor_file, header + ",mass_kg", kMonitor, continues, MPI_COMM_WORLD);
     tell_earlier(flow_.monitor_file, monitor_->earlier());
   }
 

@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzz::refused_or_read([&] {
     const std::string path = fuzz::folder().file("series.csv", fuzz::text_of(data, size));
     {
-      TimeSeriesFile file(path, "time_s,pressure_pa", "lbm monitor", 1.5, MPI_COMM_WORLD);
+      TimeSeriesFile file(path, "time_s,pressure_pa", "lbm monitor", SeriesContinuation{1.5}, MPI_COMM_WORLD);
       file.add({2.0, 3.0});
     }
     const analysis::NumberTable table(path, "lbm monitor");

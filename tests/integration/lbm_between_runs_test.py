@@ -95,6 +95,38 @@ def check_guard(program, folder):
     expect(code == 4 and "motion of a grain" in screen, f"a grain that came in and is too fast: code {code}\n{screen[-800:]}")
 
 
+STAGED = "create_atoms 1 single 1e-3 1e-3 2e-3 units box\nset group all diameter 4e-4 density 2650\ntimestep 1e-4\n" \
+    "lbm lattice spacing 1e-4 relaxation_time 0.8\nlbm boundary zlo velocity 0 0 1e-3 zhi pressure 0\n"
+TICK = 1e-3  # fluid steps of spacing^2 (relaxation_time - 1/2) / (3 viscosity)
+
+
+def check_changed_outputs(program, folder):
+    """A monitor and an output that change their interval from stage to stage: every sample of the run stays, none twice."""
+    text, stage = BOX.format(boundary="p p f", height="4e-3") + STAGED, "lbm monitor m every {t} file staged.csv mass\n" \
+        "lbm output o every {t} file staged.h5 pressure grains\n"
+    for interval, steps in ((2, 13), (3, 12), (5, 12)):
+        text += stage.format(t=interval * TICK) + f"lbm run {steps * TICK}\nlbm monitor m off\nlbm output o off\n"
+    screen = program.must_run(text, folder)
+    rows = columns(folder / "staged.csv")
+    want = [t for t in range(0, 13, 2)] + [t for t in range(15, 25, 3)] + [25, 30, 35]
+    expect([round(t / TICK) for t in rows["time_s"]] == want, f"rows at {[t / TICK for t in rows['time_s']]}")
+    expect(".before" not in screen and not list(folder.glob("staged*.before")), "a file of the run itself was put aside")
+    change = rows["mass_change_kg"]
+    expect(all(value != 0 for value in change[1:]), f"the change of mass begins anew: {change}")
+    for file in ("staged.xdmf", "staged_grains.xdmf"):
+        times = [round(float(t) / TICK) for t in re.findall(r'<Time Value="([^"]+)"', (folder / file).read_text())]
+        expect(times == sorted([*want, 13]), f"states of {file} at {times}")
+
+
+def check_other_columns(program, folder):
+    """A monitor of other quantities must not take the place of what the same run has written."""
+    text = BOX.format(boundary="p p f", height="4e-3") + STAGED + "lbm monitor m every {t} file other.csv mass\nlbm run {run}\nlbm monitor m off\n" \
+        "lbm monitor m every {t} file other.csv kinetic_energy\nlbm run {run}\n"
+    code, screen = program.run(text.format(t=2 * TICK, run=4 * TICK), folder)
+    expect(code == 1 and "other.csv" in screen and "another FILE" in screen, f"other columns in the file of the run: code {code}\n{screen[-800:]}")
+    expect(len(columns(folder / "other.csv")["time_s"]) == 3, "rows of the run are lost")
+
+
 def main():
     program = program_from_command_line(__doc__)
     with scratch() as folder:
@@ -105,6 +137,8 @@ def main():
         check_pores(program, folder)
         check_faces(program, folder)
         check_guard(program, folder)
+        check_changed_outputs(program, folder)
+        check_other_columns(program, folder)
     print(f"{program.ranks} ranks: without water where there is none, and as it is where something has changed")
 
 
