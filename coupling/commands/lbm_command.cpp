@@ -137,7 +137,7 @@ void LbmCommand::restart(ArgumentReader& reader) {
 void LbmCommand::build() {
   CoupledSettings coupled = settings_for_grains(lmp_, request_, *port_);
   coupled.skip_rest = true;
-  const EffectSettings effects = effects_.start(coupled, *port_, communicator_of(lmp_), state_to_read_);
+  const EffectSettings effects = effects_.start(coupled, *port_, lmp_, state_to_read_);
   port_->check_box(coupled.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition_of(lmp_, request_, *port_, low);
@@ -275,7 +275,7 @@ void LbmCommand::run_scene(const ArgumentReader& reader, const RunLine& asked) {
   }
   warn_about_held_grains();
   request.walls = walls_.lines();
-  for (const std::string& line : effects_.begin(scene(), walls_.planes()))
+  for (const std::string& line : effects_.begin(scene(), {request_.region, walls_.planes()}))
     tell(lmp_, "lbm run: " + line + "\n");
   LbmRun(scene(), request_, output_, effects_).run(request, took_up_state_);
   effects_.withdraw(lmp_);  // LIGGGHTS's own `run` is without water, and grains may become smaller by then

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "../liggghts/instance.h"
+
 namespace suffuse::coupling {
 
 namespace {
@@ -45,7 +47,7 @@ double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& 
 }
 
 EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port,
-                            MPI_Comm communicator) {
+                            LAMMPS_NS::LAMMPS* lmp) {
   const LiggghtsPort::Summary grains = port.summary();
   EffectFacts facts;
   facts.given_speed = given_speed(settings.units, settings.fluid.faces);
@@ -55,48 +57,44 @@ EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort&
   facts.packing = grains.packing;
   facts.gravity = settings.gravity.norm();
   facts.grains_move = grains.grains > 0 && port.anything_moves();
-  facts.virtual_mass = largest_of_ranks(largest_virtual_mass_number(settings, port), communicator);
+  facts.virtual_mass = largest_of_ranks(largest_virtual_mass_number(settings, port), communicator_of(lmp));
+  facts.films_of_script = FilmForces::of_script(lmp);
   return facts;
 }
 
-EffectFacts RunEffects::facts_now(const LiggghtsPort& port, const CoupledSimulation& simulation,
-                                  double water_speed) const {
-  const MPI_Comm communicator = simulation.fluid().decomposition().communicator();
-  CoupledSettings now = simulation.settings();
-  now.fluid.faces = simulation.fluid().settings().faces;
-  EffectFacts facts = facts_of_grains(now, port, communicator);
+EffectFacts RunEffects::facts_now(const Scene& scene, double water_speed) const {
+  CoupledSettings now = scene.simulation.settings();
+  now.fluid.faces = scene.simulation.fluid().settings().faces;
+  EffectFacts facts = facts_of_grains(now, scene.port, scene.lmp);
   facts.water_speed = water_speed;
-  facts.grain_speed = fastest_wet_grain(port, simulation);
+  facts.grain_speed = fastest_wet_grain(scene.port, scene.simulation);
   return facts;
 }
 
-EffectSettings RunEffects::start(const CoupledSettings& settings, LiggghtsPort& port, MPI_Comm communicator,
-                                 const std::string& state) {
+EffectSettings RunEffects::start(const CoupledSettings& settings, const LiggghtsPort& port,
+                                 LAMMPS_NS::LAMMPS* lmp, const std::string& state) {
   switches_.emplace(settings, lbm::Units(settings.units));
   if (!state.empty()) {
     std::map<std::string, std::vector<double>> record;
-    for (const auto& [name, values] : load_references(state, communicator))
+    for (const auto& [name, values] : load_references(state, communicator_of(lmp)))
       if (name.starts_with(kMark)) record[name.substr(kMark.size())] = values;
     switches_->restore(record, "lbm restart read " + state);
     restored_ = !record.empty();
   }
   // What follows from the script alone, and the rest where no state has it.
-  (void)switches_->begin(facts_of_grains(settings, port, communicator), 0);
+  (void)switches_->begin(facts_of_grains(settings, port, lmp), 0);
   return switches_->settings();
 }
 
-std::vector<std::string> RunEffects::begin(const Scene& scene, const FilmForces::Planes& planes) {
+std::vector<std::string> RunEffects::begin(const Scene& scene, const FilmForces::Water& water) {
   CoupledSimulation& simulation = scene.simulation;
-  planes_ = planes;
+  water_ = water;
   if (restored_) looked_at_ = simulation.fluid().steps();  // the run that saved it has looked
   restored_ = false;
-  const double water = simulation.units().velocity_to_si(simulation.extremes().largest_speed);
-  std::vector<std::string> lines =
-      switches_->begin(facts_now(scene.port, simulation, water), simulation.time_si());
-  const EffectSettings effects = switches_->settings();
-  simulation.set_effects(effects);
-  films_.follow(scene.lmp, effects.lubrication == Switch::on, scene.port.summary().smallest_radius,
-                simulation, planes_);
+  const double speed = simulation.units().velocity_to_si(simulation.extremes().largest_speed);
+  std::vector<std::string> lines = switches_->begin(facts_now(scene, speed), simulation.time_si());
+  simulation.set_effects(switches_->settings());
+  films_.follow(scene, water_);
   return lines;
 }
 
@@ -106,13 +104,10 @@ std::vector<std::string> RunEffects::check(const Scene& scene, const lbm::FluidE
   if (step % kEffectsEvery != 0 || step == looked_at_) return {};
   looked_at_ = step;
   const double water = simulation.units().velocity_to_si(extremes.largest_speed);
-  std::vector<std::string> lines =
-      switches_->check(facts_now(scene.port, simulation, water), simulation.time_si());
+  std::vector<std::string> lines = switches_->check(facts_now(scene, water), simulation.time_si());
   if (lines.empty()) return lines;
-  const EffectSettings effects = switches_->settings();
-  simulation.set_effects(effects);
-  if (films_.follow(scene.lmp, effects.lubrication == Switch::on, scene.port.summary().smallest_radius,
-                    simulation, planes_)) {
+  simulation.set_effects(switches_->settings());
+  if (films_.follow(scene, water_)) {
     simulation.refresh_loads();  // the grains' memory travels with them
     scene.port.set_up_with_new_fixes();
     (void)simulation.map_anew();

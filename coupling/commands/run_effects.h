@@ -20,7 +20,8 @@ double given_speed(const lbm::UnitsRequest& request, const lbm::FaceConditions& 
 
 /// What effects are decided by, but for the speeds of the water. `settings`: with faces and forces of now.
 /// Collective.
-EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port, MPI_Comm communicator);
+EffectFacts facts_of_grains(const CoupledSettings& settings, const LiggghtsPort& port,
+                            LAMMPS_NS::LAMMPS* lmp);
 
 /// Of the grains whose centre lies in the water's box, m/s: others are dry. Collective.
 double fastest_wet_grain(const LiggghtsPort& port, const CoupledSimulation& simulation);
@@ -36,12 +37,12 @@ class RunEffects {
 
   /// Before there is a simulation; `state`: the saved one that is taken up, or empty. What the effects of
   /// `settings`, whose faces and forces are those of now, come to. Collective.
-  EffectSettings start(const CoupledSettings& settings, LiggghtsPort& port, MPI_Comm communicator,
+  EffectSettings start(const CoupledSettings& settings, const LiggghtsPort& port, LAMMPS_NS::LAMMPS* lmp,
                        const std::string& state);
 
   /// At the beginning of an `lbm run`, before LIGGGHTS is set up. Returns lines about what has changed.
   /// Collective.
-  std::vector<std::string> begin(const Scene& scene, const FilmForces::Planes& planes);
+  std::vector<std::string> begin(const Scene& scene, const FilmForces::Water& water);
 
   /// Within a run, after so many fluid steps. Collective.
   std::vector<std::string> check(const Scene& scene, const lbm::FluidExtremes& extremes);
@@ -55,12 +56,11 @@ class RunEffects {
   double film_seconds(LAMMPS_NS::LAMMPS* lmp) const { return films_.seconds(lmp); }
 
  private:
-  EffectFacts facts_now(const LiggghtsPort& port, const CoupledSimulation& simulation,
-                        double water_speed) const;
+  EffectFacts facts_now(const Scene& scene, double water_speed) const;
 
   std::optional<EffectSwitches> switches_;
   FilmForces films_;
-  FilmForces::Planes planes_;
+  FilmForces::Water water_;
   bool restored_ = false;  ///< from a saved state, and not begun yet
   long looked_at_ =
       -1;  ///< step: faces that follow variables have other values at the same step of a new run

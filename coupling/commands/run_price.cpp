@@ -71,7 +71,7 @@ int substeps_for(const LbmRequest& request, const LiggghtsPort& port) {
 RunPrice price_of_run(LAMMPS_NS::LAMMPS* lmp, const LbmRequest& request, LiggghtsPort& port) {
   RunPrice price;
   price.settings = settings_for_grains(lmp, request, port);
-  price.settings.effects = RunEffects().start(price.settings, port, communicator_of(lmp), "");
+  price.settings.effects = RunEffects().start(price.settings, port, lmp, "");
   port.check_box(price.settings.fluid.faces);
   Vec3 low;
   const lbm::Decomposition parts = decomposition_of(lmp, request, port, low);

@@ -1,14 +1,10 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "suffuse/coupling/coupled_simulation.h"
-
-namespace LAMMPS_NS {
-class LAMMPS;
-class FixLubrication;
-}  // namespace LAMMPS_NS
+#include "scene.h"
 
 namespace suffuse::coupling {
 
@@ -18,23 +14,38 @@ class FilmForces {
  public:
   using Planes = std::vector<std::pair<int, double>>;  ///< axis, and coordinate in m
 
-  /// Adds or deletes the fix as `on` says, with films at no-slip faces and at `planes` in the water. LIGGGHTS
-  /// must be set up anew after a change (true). Collective.
-  bool follow(LAMMPS_NS::LAMMPS* lmp, bool on, double smallest_radius, const CoupledSimulation& simulation,
-              const Planes& planes);
+  /// Where the script has water.
+  struct Water {
+    std::string region;  ///< LIGGGHTS's, of the lattice; empty: the box
+    Planes planes;       ///< walls in it
+    bool operator==(const Water&) const = default;
+  };
+
+  /// Adds or deletes the fix for the grains that the fluid knows as the simulation's effects say, with films
+  /// in the water, at no-slip faces and at its planes. LIGGGHTS must be set up anew after a change (true).
+  /// Collective.
+  bool follow(const Scene& scene, const Water& water);
   /// Deletes the fix.
   void withdraw(LAMMPS_NS::LAMMPS* lmp);
 
   /// Time of this rank for films so far, those of fixes that are gone among it.
   double seconds(LAMMPS_NS::LAMMPS* lmp) const;
 
-  /// The one that acts, whoever defined it; null without.
-  static const LAMMPS_NS::FixLubrication* find(LAMMPS_NS::LAMMPS* lmp);
+  /// ID of the one that the script has defined itself; empty: none.
+  static std::string of_script(LAMMPS_NS::LAMMPS* lmp);
 
  private:
-  void add(LAMMPS_NS::LAMMPS* lmp, double smallest_radius, const CoupledSimulation& simulation);
-  Planes planes_;       ///< that the fix was made with
-  int substeps_ = 0;    ///< likewise
+  /// What the fix is made with, beside the lattice.
+  struct Made {
+    Water water;
+    int substeps = 0;
+    bool torque = true;
+    bool operator==(const Made&) const = default;
+  };
+
+  void add(const Scene& scene) const;
+
+  Made made_;
   double of_past_ = 0;  ///< s, of fixes that are gone
 };
 

@@ -15,6 +15,7 @@ namespace suffuse::coupling {
 namespace {
 
 constexpr const char* kAsked = "as asked for";
+constexpr const char* kNotAveraged = "the averaged flow has none";
 constexpr const char* kHeld = "nothing moves the grains";
 
 struct Speed {
@@ -109,7 +110,7 @@ void EffectSwitches::decide_scene(const EffectFacts& facts) {
     buoyancy.decide(facts.gravity > 0, facts.gravity > 0 ? "the fluid has weight" : "no `lbm force gravity`");
   EffectState& rotation = at("rotation");
   if (averaged_)
-    rotation.decide(false, "the averaged flow has none");
+    rotation.decide(false, kNotAveraged);
   else if (!facts.grains_move)
     rotation.decide(false, kHeld);
   else
@@ -163,6 +164,10 @@ void EffectSwitches::comoving(const EffectFacts& facts) {
 
 void EffectSwitches::lubrication(const EffectFacts& facts) {
   EffectState& state = at("lubrication");
+  films_of_script_ = facts.films_of_script;
+  if (!facts.films_of_script.empty())
+    return state.decide(true, fmt::format("`fix {} lubrication` of the script", facts.films_of_script));
+  if (averaged_) return state.decide(false, kNotAveraged);
   if (state.asked != Switch::automatic) return state.decide(state.asked == Switch::on, kAsked);
   if (!facts.grains_move) return state.decide(false, kHeld);
   const double fall = speed_of_fall(facts, units_);
@@ -178,12 +183,11 @@ void EffectSwitches::lubrication(const EffectFacts& facts) {
 
 void EffectSwitches::decide_flow(const EffectFacts& facts) {
   if (averaged_) {
-    for (const char* name : {"turbulence", "comoving", "lubrication"})
-      at(name).decide(false, "the averaged flow has none");
-    return;
+    for (const char* name : {"turbulence", "comoving"}) at(name).decide(false, kNotAveraged);
+  } else {
+    turbulence(facts);
+    comoving(facts);
   }
-  turbulence(facts);
-  comoving(facts);
   lubrication(facts);
 }
 
@@ -204,7 +208,10 @@ std::vector<std::string> EffectSwitches::begin(const EffectFacts& facts, double 
   const std::vector<EffectState> before = states_;
   const bool moved = state("motion").on;
   decide_scene(facts);
-  if (!decided_ || moved != facts.grains_move) decide_flow(facts);
+  if (!decided_ || moved != facts.grains_move)
+    decide_flow(facts);
+  else if (films_of_script_ != facts.films_of_script)
+    lubrication(facts);
   if (decided_) return changed_since(before, time);
   decided_ = true;
   return {};

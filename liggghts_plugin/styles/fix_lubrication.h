@@ -15,14 +15,19 @@ FixStyle(lubrication, FixLubrication)
 #include "fix.h"
 #include "laws/lubrication.h"
 
+namespace suffuse {
+class ArgumentReader;
+}
+
 namespace LAMMPS_NS {
 
 class PairGran;
+class Region;
 
-/// fix ID group lubrication viscosity MU outer H inner H [density RHO] [every N] [walls xplane X ...]:
-/// adds the forces of the viscous films between grains of the group, and between them and planes at rest,
-/// whose gap is smaller than `outer`. Reference page: docs/reference/fix_lubrication.md; physics:
-/// laws/lubrication.h.
+/// fix ID group lubrication viscosity MU outer H inner H [density RHO] [every N] [region ID] [torque yes|no]
+/// [walls xplane X ...]: adds the forces of the viscous films between grains of the group, and between them
+/// and planes at rest, whose gap is smaller than `outer`. Reference page: docs/reference/fix_lubrication.md;
+/// physics: laws/lubrication.h.
 class FixLubrication : public Fix {
  public:
   FixLubrication(LAMMPS* lmp, int narg, char** arg);
@@ -33,10 +38,18 @@ class FixLubrication : public Fix {
     double at;  // coordinate, m
   };
 
+  /// What its line says.
+  struct Settings {
+    suffuse::lubrication::Film film;
+    double density = 0;  // of the fluid, kg/m^3, for the Reynolds number; 0: none
+    int every = 1;
+    std::string region;  // films lie in it; empty: everywhere
+    bool torque = true;
+    std::vector<Plane> walls;
+  };
   /// The words of a `fix` line, after `fix`, for who adds this fix from a program.
   static std::vector<std::string> words(const std::string& id, const std::string& group,
-                                        const suffuse::lubrication::Film& film, int every = 1,
-                                        const std::vector<Plane>& walls = {});
+                                        const Settings& settings);
 
   int setmask() override;
   void post_create() override;
@@ -58,6 +71,11 @@ class FixLubrication : public Fix {
     double films = 0, bounded = 0, power = 0, largest_force = 0, largest_reynolds = 0;
   };
 
+  void read(suffuse::ArgumentReader& reader);
+  void require_complete() const;
+  void require_walls_within_reach() const;
+  void find_region();
+  bool holds(suffuse::Vec3 point) const;
   double required_distance_factor(double smallest_radius) const;
   void require_films_once() const;
   void count_films();
@@ -76,11 +94,9 @@ class FixLubrication : public Fix {
   template <class Visitor>
   void for_each_wall(double range, Visitor&& visit) const;
 
-  suffuse::lubrication::Film film_;
-  double density_ = 0;
-  int every_ = 1;
+  Settings set_;
   PairGran* pair_ = nullptr;
-  std::vector<Plane> walls_;
+  Region* region_ = nullptr;
   std::vector<double> films_;  // an upper bound of the films of each grain until the next neighbour list
   struct Share {
     double inverse_mass, inverse_moment;  // of a film's share of its grain

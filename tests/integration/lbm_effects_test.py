@@ -45,7 +45,8 @@ def check_changes(program, folder):
     expect(0 < comoving["share_of_steps"] < 1 and 0 <= comoving["share_of_time"] < 0.5, f"{comoving}")
     expect(comoving["limit"] == 3 and comoving["release"] == 1.5, f"{comoving}")
     shares = [effect["share_of_time"] for effect in report["effects"] if effect["share_of_time"] is not None]
-    expect(0.8 < sum(shares) < 1.05, f"shares add up to {sum(shares)}: {report}")
+    most = 1.05 if program.ranks == 1 else 1.3  # each is the slowest rank's, and another one may be slowest in each
+    expect(0.8 < sum(shares) < most, f"shares add up to {sum(shares)}: {report}")
     rows = (folder / "whole.csv").read_text()
     shutil.copy(folder / "whole.csv", folder / "again.csv")
     again = program.must_run(falling("again", "whole.state.1/grains", "lbm restart read whole.state.1\n" + saved.format("again")), folder)
@@ -87,6 +88,44 @@ def check_films_between_runs(program, folder):
     expect(code == 1 and "fix" in screen, f"films are there between two runs:\n{screen[-800:]}")
 
 
+MEETING = """
+create_atoms 1 single 2e-3 2e-3 2e-3
+create_atoms 1 single 2e-3 2e-3 3.02e-3
+set group all diameter 1e-3
+set group all density 2650
+neigh_modify delay 0
+group lower id 1
+group upper id 2
+velocity upper set 1e-3 0 -1e-3
+compute spin all erotate/sphere
+"""
+LEFT = f"lbm run {20 * STEP!r}\n" + 'variable spin equal c_spin\nvariable speed equal vcm(upper,z)\nthermo_style custom step c_spin\nrun 0\nprint "LEFT ${speed} ${spin}"\n'
+
+
+def meeting(program, folder, lines="", effects="lubrication on", fluid_of="all", region=""):
+    """Two grains that meet at 1 mm/s without gravity: the upper one's speed and the spin of both (J) after 20 steps, and what was said."""
+    box = re.sub("fix weight.*\n", "", wet_box(grains=0, processors="* * 1")).replace("fix hydrodynamic_force all hydrodynamic/force\n", "")
+    text = box + MEETING + f"fix hydrodynamic_force {fluid_of} hydrodynamic/force\n" + lines + \
+        re.sub("lbm force.*\n", "", WATER).replace("spacing", region + "spacing") + f"lbm effect {effects}\n" + LEFT
+    screen = program.must_run(text, folder)
+    return [float(word) for word in re.search(r"^LEFT (\S+) (\S+)", screen, re.M).groups()], screen
+
+
+def check_films_where_water_is(program, folder):
+    """Films that the run adds lie in the water, between grains that the fluid knows, and turn grains where water does; those of the script
+    are told as they act."""
+    (speed, spin), _ = meeting(program, folder)
+    expect(speed > -5e-4 and spin > 0, f"a film leaves {speed} m/s and a spin of {spin} J")
+    (speed, spin), _ = meeting(program, folder, effects="lubrication on rotation off")
+    expect(speed > -5e-4 and spin == 0, f"with rotation off a film leaves {speed} m/s and a spin of {spin} J")
+    (speed, spin), _ = meeting(program, folder, "region wet block 0 4e-3 0 4e-3 0 1.25e-3 units box\n", region="region wet ")
+    expect(speed == -1e-3 and spin == 0, f"two dry grains have a film: {speed} m/s, {spin} J")
+    (speed, spin), _ = meeting(program, folder, fluid_of="lower")
+    expect(speed == -1e-3, f"a film with a grain that the fluid does not know: {speed} m/s")
+    _, screen = meeting(program, folder, f"fix gap all lubrication viscosity 1e-3 outer {SPACING / 2} inner 1e-6\n", effects="lubrication off")
+    expect(re.search("lubrication +on +`fix gap lubrication` of the script", screen), f"films of the script:\n{screen[:3000]}")
+
+
 def check_asked(program, folder):
     """Words have the last say; the averaged flow and other collisions have none of it."""
     lines = "lbm effect comoving off turbulence off lubrication off\nlbm run 4e-3\n"
@@ -116,6 +155,7 @@ def main():
         folder = pathlib.Path(scratch_folder)
         Program(program.suffuse, program.mpirun, 1).must_run(wet_box() + "write_restart start\n", folder)
         told = check_changes(program, folder)
+        check_films_where_water_is(program, folder)
         if program.ranks == 1:
             check_films(program, folder)
             check_films_between_runs(program, folder)

@@ -104,8 +104,8 @@ def film_loads(first, n, gap, second=None):
     return add(drag, n, kn * vn), cross(n, add([l1 * p for p in drag], couple, -1))
 
 
-def all_loads(grains, periodic=(True, True, False), walls=True):
-    """Loads of every grain, and the number of films."""
+def all_loads(grains, periodic=(True, True, False), walls=True, below=math.inf):
+    """Loads of every grain, and the number of films; only of films below this height: the middle of a gap, at a wall the grain's centre."""
     loads, films = [], 0.0
     for i, g in enumerate(grains):
         force, torque = [0.0] * 3, [0.0] * 3
@@ -115,13 +115,14 @@ def all_loads(grains, periodic=(True, True, False), walls=True):
             d = image(add(other.x, g.x, -1), periodic)
             distance = math.sqrt(dot(d, d))
             gap = distance - g.radius - other.radius
-            if gap >= OUTER:
+            n = [p / distance for p in d]
+            if gap >= OUTER or g.x[2] + n[2] * (g.radius + gap / 2) > below:
                 continue
-            f, t = film_loads(g, [p / distance for p in d], gap, other)
+            f, t = film_loads(g, n, gap, other)
             force, torque, films = add(force, f), add(torque, t), films + 0.5
         for at, side in ((0, -1), (HEIGHT, 1)) if walls else ():
             gap = abs(at - g.x[2]) - g.radius
-            if gap < OUTER:
+            if gap < OUTER and g.x[2] <= below:
                 f, t = film_loads(g, [0, 0, side], gap)
                 force, torque, films = add(force, f), add(torque, t), films + 1
         loads.append(force + torque)
@@ -164,6 +165,14 @@ def check_many_grains(program, folder, grains):
         power = -sum(dot(load[:3], g.v) + dot(load[3:], g.w) for load, g in zip(wanted, grains))
         # The same sum in another order, of terms of both signs.
         expect(abs(row[7] - power) < 1e-10 * power, f"{style}: power {row[7]} W, {power} W by hand")
+    # In half of the box: a region's films, without their torques.
+    region = f"region wet block 0 {LENGTH} 0 {LENGTH} 0 {HEIGHT / 2} units box\n"
+    wanted_there, films_there = all_loads(grains, below=HEIGHT / 2)
+    expect(0.2 * films < films_there < 0.8 * films, f"{films_there} of {films} films in the region")
+    program.must_run(scene() + region + FILM + " region wet torque no" + walls + OUTPUT + "run 0\n", folder)
+    found = read_steps(folder)[0][1]
+    expect(all(value == 0 for load in found for value in load[3:]), "torques in spite of `torque no`")
+    check_loads([f[:3] + w[3:] for f, w in zip(found, wanted_there)], wanted_there, "region")
     # Of half of the grains, films among themselves alone.
     write_grains(folder, grains)
     half = len(grains) // 2
@@ -267,6 +276,10 @@ CASES = [
     ("fix film all lubrication viscosity -1 outer 1e-4 inner 1e-6", ["viscosity = -1", "> 0"]),
     ("fix film all lubrication viscosity water outer 1e-4 inner 1e-6", ["viscosity = water", "be a number"]),
     ("fix film all lubrication viscosity 1e-3 outer 1e-6 inner 1e-6", ["inner = 1e-06", "smaller than outer"]),
+    ("fix film all lubrication viscosity 1e-3 outer 0.1 inner 1e-6", ["outer = 0.1", "radius", "metres"]),
+    (f"fix film all lubrication {GOOD} region water\nrun 0", ["region = water", "exist"]),
+    (f"fix film all lubrication {GOOD} torque off", ["torque = off", "yes or no"]),
+    (f"fix film all lubrication {GOOD} walls zplane 4\nrun 0", ["walls = zplane 4", "lie in the box, 0 to 0.004"]),
     (f"fix film all lubrication {GOOD} range 3", ["keyword = range", "viscosity, outer, inner"]),
     (f"fix film all lubrication {GOOD} every 0.5", ["every = 0.5", "whole number"]),
     (f"fix film all lubrication {GOOD} walls", ["walls", "be given"]),

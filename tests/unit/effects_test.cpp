@@ -87,6 +87,21 @@ TEST_CASE("Effects left to themselves follow the scene") {
   CHECK(chosen(held).lubrication == Switch::off);
 }
 
+TEST_CASE("Films of the script act whatever is asked for, until it takes them away") {
+  CoupledSettings asked = water();
+  asked.effects.lubrication = Switch::off;
+  EffectSwitches all = switches(asked);
+  EffectFacts facts = bed();
+  facts.films_of_script = "gap";
+  CHECK(all.begin(facts, 0).empty());
+  CHECK(all.state("lubrication").on);
+  CHECK_THAT(all.state("lubrication").text(),
+             Catch::Matchers::Contains("`fix gap lubrication` of the script"));
+  facts.films_of_script = "";
+  CHECK(all.begin(facts, 1).size() == 1);
+  CHECK_FALSE(all.state("lubrication").on);
+}
+
 TEST_CASE("Turbulence is decided by the fastest of given, water and grains, and says whose speed it is") {
   EffectSwitches all = switches(water());
   all.begin(bed(), 0);

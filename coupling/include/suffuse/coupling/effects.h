@@ -20,6 +20,7 @@ struct EffectFacts {
   double gravity = 0;          ///< size of `lbm force gravity`, m/s^2
   double virtual_mass = 0;     ///< largest virtual_mass_number of the grains
   bool grains_move = false;
+  std::string films_of_script;  ///< ID of its own `fix lubrication`; empty: none
 };
 
 /// Grid Reynolds number u dx/nu from which on `turbulence auto` adds an eddy viscosity: above, eddies between
@@ -80,6 +81,7 @@ class EffectSwitches {
   std::optional<double> virtual_mass_;
   double smagorinsky_;
   std::vector<EffectState> states_;
+  std::string films_of_script_;  ///< at the last decision
   bool decided_ = false;
 };
 
